@@ -167,8 +167,10 @@ class Island {
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
-  /// doubles could not prove it.
-  [[nodiscard]] bool is_jammed() const { return squeezed_ >= kMostSqueezed; }
+  /// doubles could not prove it. Or plans go on to break what contacts ask.
+  [[nodiscard]] bool is_jammed() const {
+    return squeezed_ >= kMostSqueezed || crushed_ >= kMostCrushed;
+  }
 
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
   /// the angular acceleration a of gyroscopic moments.
@@ -206,7 +208,8 @@ class Island {
       const Plan plan = planner.plan();
       const std::vector<Impact> hits = search.find(plan);
       if (hits.empty() || round == kRoundsOfSlight ||
-          std::ranges::none_of(hits, &Impact::is_slight)) {
+          std::ranges::none_of(hits, &Impact::is_slight) || is_in_vain(planner, plan, hits)) {
+        crushed_ += !hits.empty() && plan.is_limited ? 1 : 0;
         double t = state_.robots.share_within_limits(plan.robots);
         for (const Impact& hit : hits) {
           t = std::min(t, hit.t);
@@ -228,6 +231,16 @@ class Island {
       }
     }
     return std::nullopt;
+  }
+
+  /// Whether another plan would be stopped by the same hits: it has them as constraints, and its
+  /// velocities do not keep these.
+  [[nodiscard]] static bool is_in_vain(const IslandPlanner& planner, const Plan& plan,
+                                       const std::vector<Impact>& hits) {
+    return plan.is_limited && std::ranges::all_of(hits, [&](const Impact& hit) {
+             return std::ranges::all_of(
+                 hit.ahead, [&](const PredictedContact& ahead) { return planner.has(ahead); });
+           });
   }
 
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
@@ -368,6 +381,7 @@ class Island {
   double span_;               // [s]  Longest of a plan, for now.
   double planned_ = 0.0;      // [s]  Of the plan.
   std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
+  std::size_t crushed_ = 0;   // Impacts of plans that contacts left no solution.
 };
 
 }  // namespace

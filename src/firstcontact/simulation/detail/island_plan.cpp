@@ -228,6 +228,11 @@ std::optional<std::size_t> IslandPlanner::find(const PredictedContact& ahead) co
   return found == end ? std::nullopt : std::optional(found->second);
 }
 
+bool IslandPlanner::has(const PredictedContact& ahead) const {
+  const std::optional<std::size_t> k = find(ahead);
+  return k && (*k >= first_ahead_ || acting_[*k].is_replaced);
+}
+
 void IslandPlanner::add(const PredictedContact& ahead) {
   if (lifts(ahead)) {
     return;
@@ -301,7 +306,9 @@ Plan IslandPlanner::plan() {
     follow_ties();
   }
   const ContactSolution& solution = last_->velocities;
-  Plan made{.at_end = solution.bodies, .residual = solution.residual};
+  Plan made{.at_end = solution.bodies,
+            .residual = solution.residual,
+            .is_limited = last_->is_limited || !is_solved(state_, solution)};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
   const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&

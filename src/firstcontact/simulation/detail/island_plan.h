@@ -67,6 +67,8 @@ struct Plan {
   std::vector<RobotPlan> robots = {};
   std::vector<TieTrackPiece> ties = {};  ///< Impulses over the plan.
   double residual = 0.0;                 ///< [m/s]
+  /// Velocities are not what contacts would have them: without limit, or without a solution.
+  bool is_limited = false;
 };
 
 /// Makes plans from where an island is now, each with more or tighter constraints than the one
@@ -87,6 +89,9 @@ class IslandPlanner {
   /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
   /// takes its place: between two that say nearly the same impulses would only slowly go over.
   void add(const PredictedContact& ahead);
+
+  /// Whether the last plan has the touch as one of the motion ahead: adding it changes little.
+  [[nodiscard]] bool has(const PredictedContact& ahead) const;
 
  private:
   /// Velocities without contacts, as those of Plan, and how far they lead.

@@ -109,6 +109,8 @@ inline constexpr std::size_t kMostStalls = 10;
 inline constexpr double kSqueezedOfDistance = 1e-2;
 /// [impacts]  ...and after so many in a step that leave one squeezed the rest of the step is lost.
 inline constexpr std::size_t kMostSqueezed = 20;
+/// [impacts]  The same of impacts that ended a plan whose velocities broke its own constraints.
+inline constexpr std::size_t kMostCrushed = 20;
 /// [-]  A stall, by the step.
 inline constexpr double kStallOfStep = 1e-9;
 
