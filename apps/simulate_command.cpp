@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -99,6 +101,7 @@ struct Work {
 /// What the steps of a run amount to, those that were there among them.
 struct Tally {
   double time_lost = 0.0;                                      // [s]
+  std::map<std::size_t, double> behind = {};                   // [s]  Most of scripted bodies.
   double clearance = std::numeric_limits<double>::infinity();  // [m]
   double residual = 0.0;                                       // [m/s]
   std::size_t events = 0;
@@ -108,6 +111,11 @@ struct Tally {
 
   void take(const RunStep& step) {
     time_lost += step.time_lost;
+    for (const RunBody& body : step.bodies) {
+      if (body.behind > 0.0) {
+        behind[body.body] = std::max(behind[body.body], body.behind);
+      }
+    }
     clearance = std::min(clearance, step.clearance);
     residual = std::max(residual, step.residual);
     events += step.events;
@@ -164,7 +172,8 @@ class Run {
     write_page();
     write_animation();
     print(is_whole, count);
-    return is_whole && tally_.time_lost == 0.0 ? ExitStatus::free : ExitStatus::undecided;
+    const bool is_as_asked = is_whole && tally_.time_lost == 0.0 && tally_.behind.empty();
+    return is_as_asked ? ExitStatus::free : ExitStatus::undecided;
   }
 
  private:
@@ -240,6 +249,9 @@ class Run {
                                  *tally_.first_energy, tally_.last_energy));
       line("time lost", tally_.time_lost > 0.0 ? time_text(tally_.time_lost) : "none");
     }
+    if (!tally_.behind.empty()) {
+      line("waited", waited());
+    }
     for (const auto& [label, value] : pair_lines(loaded.pair_counts)) {
       line(label, value);
     }
@@ -255,6 +267,24 @@ class Run {
            animation_->time() > 0.0 ? arguments_.animation : "none: there is nothing to play");
     }
     flush_stdout();
+  }
+
+  /// The bodies that waited, those that did so longest first.
+  [[nodiscard]] std::string waited() const {
+    constexpr std::size_t kMost = 3;
+    std::vector<std::pair<double, std::size_t>> longest;
+    for (const auto& [body, seconds] : tally_.behind) {
+      longest.emplace_back(-seconds, body);
+    }
+    std::ranges::sort(longest);
+    const std::vector<Body>& bodies = simulator_.loaded().scene.bodies;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(kMost, longest.size()); ++k) {
+      text += fmt::format("{}{}, up to {} behind its motion", k == 0 ? "" : "; ",
+                          bodies[longest[k].second].name, time_text(-longest[k].first));
+    }
+    return text +
+           (longest.size() > kMost ? fmt::format("; {} others", longest.size() - kMost) : "");
   }
 
   static void print_warnings(const LoadedScene& loaded) {

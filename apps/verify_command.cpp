@@ -62,6 +62,10 @@ class Description {
                                 names(at.bodies), at.time, at.step));
     }
     line("time lost", found_.time_lost > 0.0 ? time_text(found_.time_lost) : "none");
+    if (found_.greatest_behind > 0.0) {
+      line("waited", fmt::format("scripted bodies are up to {} behind their motion",
+                                 time_text(found_.greatest_behind)));
+    }
     if (run_.is_cut_off()) {
       line("note", "the file ends in the middle of a line, which was left out");
     }

@@ -271,6 +271,25 @@ def test_scripted_body_pushes():
     assert simulator.positions[BOX, 0] >= 0.2 + 0.05 + 0.1
 
 
+def test_script_waits_for_what_it_would_crush(tmp_path):
+    scene = box_scene(height=0.1001)
+    scene["bodies"].append({"name": "wall", "shape": {"box": {"size": [0.1, 1, 1]}},
+                            "pose": {"position": [0.16, 0, 0.51]}})
+    scene["bodies"].append({
+        "name": "pusher", "shape": {"box": {"size": [0.1, 0.2, 0.1]}},
+        "motion": {"type": "waypoints", "times": [0, 0.5],
+                   "poses": [{"position": [-0.3, 0, 0.1]}, {"position": [0.2, 0, 0.1]}]}})
+    scene["simulation"]["jams"] = "wait"
+    path = tmp_path / "run.jsonl"
+    steps = fc.simulate(scene, record=path)
+    pusher = list(steps[-1].bodies).index(3)
+    assert sum(step.time_lost for step in steps) == 0
+    assert 0.2 < steps[-1].behind[pusher] < 0.4 and not steps[-1].linear_velocities[pusher].any()
+    found = fc.verify_run(path)
+    assert found.verdict == "proven" and found.greatest_behind == steps[-1].behind[pusher]
+    assert [step.behind[pusher] for step in fc.RunReader(path)][-1] == found.greatest_behind
+
+
 def test_run_is_the_tools(tmp_path, tool):
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(box_scene(angular_velocity=[1, 2, 3], linear_velocity=[0.3, 0, 0])))

@@ -76,6 +76,7 @@ RunStep example_step(std::size_t index, Doubles& doubles) {
   }
   body.linear_velocity = doubles.vector();
   body.angular_velocity = doubles.vector();
+  body.behind = index % 2 == 0 ? std::abs(doubles.next()) : 0.0;
   step.bodies.push_back(body);
   RunContact contact;
   contact.bodies = {0, 1};
@@ -146,6 +147,7 @@ TEST(RunFile, ReadsBackBitForBit) {
     };
     EXPECT_EQ(bits(*step), bits(original));
     EXPECT_EQ(step->clearance, original.clearance);
+    EXPECT_EQ(step->bodies.at(0).behind, original.bodies.at(0).behind);
     EXPECT_EQ(step->contacts.at(0).feature_A, original.contacts.at(0).feature_A);
   }
   EXPECT_EQ(count, 50u);
@@ -236,6 +238,8 @@ TEST(RunFile, SaysWhereItIsWrong) {
   EXPECT_EQ(after("[[0.03,", "[[null,"), "run.jsonl:2: bodies[0].pieces[0][0]: expected a number");
   EXPECT_EQ(after("\"body\":0", "\"body\":2"),
             "run.jsonl:2: bodies[0].body: expected an integer from 0 to 1");
+  EXPECT_EQ(after("\"body\":0,", "\"body\":0,\"behind\":-1,"),
+            "run.jsonl:2: bodies[0].behind: expected a number that is not negative");
   EXPECT_EQ(after("\"edge\"", "\"hedge\""),
             "run.jsonl:2: contacts[0].features[0].type: expected vertex, edge or face");
   EXPECT_EQ(after("\"at\":0.03", "\"at\":-1"),

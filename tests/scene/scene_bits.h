@@ -251,6 +251,7 @@ class SceneBits {
     add(simulation.friction);
     add(simulation.restitution);
     add(static_cast<double>(simulation.impacts));
+    add(static_cast<double>(simulation.jams));
     add(simulation.contact_distance);
     add(static_cast<double>(simulation.events));
     for (const PairSurface& pair : simulation.pairs) {

@@ -252,6 +252,8 @@ TEST(MalformedSimulation, SaysWhatIsWrong) {
       {simulated(R"("impacts": "one by one")"),
        "simulation.impacts: unknown word \"one by one\"; known are \"sequential\", "
        "\"simultaneous\""},
+      {simulated(R"("jams": "stop")"),
+       "simulation.jams: unknown word \"stop\"; known are \"lose_time\", \"wait\""},
       {simulated(R"("events": 0)"), "simulation.events: expected a number of events > 0, got 0"},
       {simulated(R"("pairs": [{"bodies": ["a", "bb"], "friction": 1}])"),
        "simulation.pairs[0].bodies[1]: expected the name of a body, or robot/link, got \"bb\""},

@@ -205,9 +205,10 @@ class SceneText {
       ties += ", " + tie();
     }
     return R"({"duration": )" + positive(0.5, 1.0) + maybe(R"("impacts": "simultaneous")") +
-           maybe(R"("gravity": )" + three()) + maybe(R"("contact_distance": )" + positive()) +
-           maybe(R"("events": 4294967295)") + R"(, "pairs": [{"bodies": ["r/tip", "world"], )" +
-           surface() + R"(}], "ties": [)" + ties + "]}";
+           maybe(R"("jams": "wait")") + maybe(R"("gravity": )" + three()) +
+           maybe(R"("contact_distance": )" + positive()) + maybe(R"("events": 4294967295)") +
+           R"(, "pairs": [{"bodies": ["r/tip", "world"], )" + surface() + R"(}], "ties": [)" +
+           ties + "]}";
   }
 
   Random random_;
@@ -253,6 +254,10 @@ TEST_F(AnyScene, IsComparedByWhatARoundCouldLose) {
   expect_seen([](Scene& s) {
     const bool is_sequential = s.simulation->impacts == ImpactLaw::sequential;
     s.simulation->impacts = is_sequential ? ImpactLaw::simultaneous : ImpactLaw::sequential;
+  });
+  expect_seen([](Scene& s) {
+    const bool waits = s.simulation->jams == JamRule::wait;
+    s.simulation->jams = waits ? JamRule::lose_time : JamRule::wait;
   });
   expect_seen([](Scene& s) { s.group_margins[0].margin += 1.0; });
 }

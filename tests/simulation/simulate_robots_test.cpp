@@ -313,6 +313,41 @@ TEST_F(SimulateRobots, LimitsDoNotGiveWayToAPress) {
   }
 }
 
+// A robot on its trajectory crushes a cube against a wall with one of two links.
+TEST_F(SimulateRobots, AllLinksOfARobotWaitTogether) {
+  const std::string urdf =
+      robot_of("<link name=\"base\"/>" + link("sled", 2.0, "0 0 0", "<box size=\"0.1 0.1 0.1\"/>") +
+               link("arm", 1.0, "0 0 0.3", "<box size=\"0.05 0.05 0.4\"/>") +
+               joint("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0.06",
+                     R"(<limit lower="-9" upper="9" effort="0" velocity="9"/>)") +
+               joint("turn", "revolute", "sled", "arm", "0 0 1", "0 0 0.06",
+                     R"(<limit lower="-9" upper="9" effort="0" velocity="9"/>)"));
+  const std::string fixed =
+      R"({"name": "wall", "shape": {"box": {"size": [0.1, 1, 1]}},
+      "pose": {"position": [0.4, 0, 0.5]}}, )" +
+      test::kFloor + ", " +
+      body("cube", box("[0.1, 0.1, 0.1]"), "[0.29, 0, 0.051]", R"(, "dynamics": {"mass": 1})");
+  Simulator s = simulator(scene(urdf, R"("trajectory": {"joint_names": ["rail", "turn"], "points": [
+          {"positions": [0, 0], "time_from_start": 0},
+          {"positions": [0.5, 1], "time_from_start": 1}]})",
+                                fixed, R"("step": 0.01, "duration": 1, "jams": "wait")"));
+  const auto steps = run(s, 80);
+  for (const RunStep& step : steps) {
+    ASSERT_EQ(step.time_lost, 0.0);
+    std::vector<double> behind;
+    for (const RunBody& moved : step.bodies) {
+      if (moved.body >= 3) {
+        behind.push_back(moved.behind);
+      }
+    }
+    ASSERT_EQ(behind.size(), 2u);
+    ASSERT_EQ(behind[0], behind[1]) << step.index;
+  }
+  EXPECT_GT(steps.back().bodies.back().behind, 0.3);  // It came to the cube after 0.38 s.
+  const RunVerification proof = verify(s.header(), steps);
+  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+}
+
 TEST_F(SimulateRobots, LimitsStopAndFrictionHolds) {
   const auto swing = [&](const std::string& more, const std::string& state) {
     const std::string urdf = robot_of(

@@ -339,6 +339,42 @@ TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
   }
 }
 
+// It goes on its way for 0.5 s, waits for 0.25 s, and goes on that much later.
+TEST(VerifyRun, ComparesScriptedBodiesThatWaitedWithTheirScript) {
+  const std::string scripted = R"("shape": {"sphere": {"radius": 0.1}}, "motion":
+    {"type": "constant_velocity", "from": {"position": [0, 0, 1]}, "translation": [1, 0, 0]})";
+  const auto verify = [&](const std::vector<double>& behind, double last_speed) {
+    RecordedRun run(scene(scripted, box("[1, 1, 1]", "[0, 0, 0]")), {});
+    run.add({{0, {{.lasts = 0.5, .velocity = {1.0, 0.0, 0.0}}}}}, 0.39);
+    run.add({{0, {{.lasts = 0.25, .velocity = {0.0, 0.0, 0.0}}}}}, 0.39);
+    run.add({{0, {{.lasts = 0.25, .velocity = {last_speed, 0.0, 0.0}}}}}, 0.39);
+    for (std::size_t k = 0; k < behind.size(); ++k) {
+      run.steps[k].bodies[0].behind = behind[k];
+    }
+    return run.verify();
+  };
+  const RunVerification found = verify({0.0, 0.25, 0.25}, 1.0);
+  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+  EXPECT_EQ(found.greatest_behind, 0.25);
+  EXPECT_LE(found.scripted_deviation, 1e-12);
+  // A script that came back to it, or on which it hurried.
+  EXPECT_EQ(verify({0.0, 0.25, 0.125}, 1.5).verdict, RunVerdict::proven);
+  // It is elsewhere, or cannot be.
+  EXPECT_EQ(verify({0.0, 0.25, 0.25}, 1.1).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.2, 0.2}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.25, 0.0}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.0, 0.0}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, 1.0, 1.0}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, -0.25, -0.25}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, kNaN, kNaN}, 1.0).verdict, RunVerdict::broken);
+}
+
+TEST(VerifyRun, KnowsNoScriptOfFreeBodies) {
+  RecordedRun run = fly_by(0.1);
+  run.steps[0].bodies[0].behind = 0.1;
+  EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
+}
+
 // The piece rests while the script goes 0.3 m away and comes back.
 TEST(VerifyRun, ComparesScriptedBodiesWithTheSceneWithinSteps) {
   const std::string scripted = R"("shape": {"sphere": {"radius": 0.1}}, "motion":

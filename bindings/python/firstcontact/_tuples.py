@@ -388,6 +388,8 @@ class RunVerification(NamedTuple):
     """[m]  From the end of a piece to the begin of the next."""
     scripted_deviation: float
     """[m]  The greatest of a scripted body from its motion in the scene."""
+    greatest_behind: float
+    """[s]  No scripted body is behind its motion by more: it waited."""
     is_cut_off: bool
     """Whether the file ends in the middle of a line, which was left out."""
     pair_counts: "PairCounts"

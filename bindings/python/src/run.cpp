@@ -78,6 +78,14 @@ py::array which_rest(const RunStep& step) {
   return rest;
 }
 
+py::array behind(const RunStep& step) {
+  std::vector<double> seconds;
+  for (const RunBody& body : step.bodies) {
+    seconds.push_back(body.behind);
+  }
+  return owning(std::move(seconds));
+}
+
 py::array positions(const RunStep& step) {
   std::vector<Vector3d> found;
   for (const RunBody& body : step.bodies) {
@@ -209,6 +217,9 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
       .def_property_readonly("rest", &which_rest,
                              "(k,) bool: contacts hold the body where it is, until something "
                              "disturbs them.")
+      .def_property_readonly("behind", &behind,
+                             "[s] (k,): by so much the script of a body is, as it waited where it "
+                             "would have crushed what was in its way.")
       .def_property_readonly(
           "robot_positions", [](const RunStep& s) { return robot_rows(s, &RunRobot::positions); },
           "[rad or m] A row for each robot with dynamics, as `Simulator.robot_positions`.")

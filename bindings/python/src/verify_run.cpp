@@ -68,7 +68,7 @@ py::object verify(const std::filesystem::path& path, double scripted_tolerance, 
   return tuple_type("RunVerification")(
       found.verdict, found.problem, to_tuple(verified.header, found.problem_at), found.steps,
       found.time, found.time_lost, found.least_distance, to_tuple(verified.header, found.closest),
-      found.greatest_jump, found.scripted_deviation, verified.is_cut_off,
+      found.greatest_jump, found.scripted_deviation, found.greatest_behind, verified.is_cut_off,
       pair_counts_tuple(found.pair_counts), py::tuple(py::cast(found.warnings)));
 }
 

@@ -212,7 +212,7 @@ RunBody read_body(const json& value, std::size_t bodies, double lasted, const Li
   line.require_keys(
       value,
       {"body", "pieces", "position", "quaternion_wxyz", "linear_velocity", "angular_velocity"},
-      {"rests"});
+      {"rests", "behind"});
   RunBody body;
   body.body = line.index(value["body"], bodies);
   double from = 0.0;
@@ -236,6 +236,9 @@ RunBody read_body(const json& value, std::size_t bodies, double lasted, const Li
       line.fail(*rests, "true, of a body without velocity");
     }
     body.rests = true;
+  }
+  if (const auto behind = value.find("behind"); behind != value.end()) {
+    body.behind = line.not_negative(*behind);
   }
   return body;
 }

@@ -37,6 +37,9 @@ struct RunBody {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
   bool rests = false;  ///< Contacts hold it where it is: until something disturbs them, steps are
                        ///< as this one.
+  /// [s]  By so much the script of a body is behind the run. It waited where it would have crushed
+  /// what was in its way.
+  double behind = 0.0;
 };
 
 /// The coordinates of a robot at the end of a step. Its links are among the bodies.
@@ -77,7 +80,7 @@ struct RunStep {
   std::size_t index = 0;          ///< From 1.
   double time = 0.0;              ///< [s]  Simulated until here; the sum of what the steps lasted.
   double lasted = 0.0;            ///< [s]  The step asked for, but for what is lost.
-  double time_lost = 0.0;         ///< [s]  In this step, its events spent.
+  double time_lost = 0.0;         ///< [s]  In this step, its events spent, or where it jams.
   double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0, infinite
                                   ///< where there is no pair.
   double kinetic_energy = 0.0;    ///< [J]  Of the free bodies and robots.

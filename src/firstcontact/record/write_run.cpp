@@ -111,6 +111,9 @@ class StepText {
       if (body.rests) {
         field("rests", true);
       }
+      if (body.behind > 0.0) {
+        field("behind", body.behind);
+      }
     });
   }
   void add(const RunRobot& robot) {

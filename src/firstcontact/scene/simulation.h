@@ -60,6 +60,15 @@ enum class ImpactLaw {
 /// Its words in files and in Python, in this order.
 inline constexpr std::array<const char*, 2> kImpactLawWords{"sequential", "simultaneous"};
 
+/// The rule for scripts that would crush something that cannot yield.
+enum class JamRule {
+  lose_time,  ///< Everything stands still for the rest of the step.
+  wait,       ///< The scripted body stands still, and goes on with its script that much later.
+};
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kJamRuleWords{"lose_time", "wait"};
+
 /// A number at a time.
 struct TimedNumber {
   double time = 0.0;  ///< [s]
@@ -112,6 +121,7 @@ struct Simulation {
   double friction = 0.5;                        ///< [-]  >= 0
   double restitution = 0.0;                     ///< [-]  In [0, 1].
   ImpactLaw impacts = ImpactLaw::sequential;
+  JamRule jams = JamRule::lose_time;
   /// [m]  > 0  The distance at which bodies that touch rest, up to one and a half of it.
   ///
   /// The default is 1e-3 of the radius of the smallest free body. Without any it is

@@ -9,14 +9,12 @@
 #include <string>
 #include <utility>
 
-#include <firstcontact/record/detail/joined_steps.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/simulation/detail/advance_step.h>
 #include <firstcontact/simulation/detail/island_threads.h>
-#include <firstcontact/simulation/detail/islands.h>
-#include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation_model/detail/meeting.h>
 #include <firstcontact/simulation_model/detail/script.h>
@@ -30,8 +28,6 @@ namespace firstcontact {
 
 using detail::BodyKind;
 using detail::is_rotation;
-using detail::IslandTrack;
-using detail::ManifoldPoint;
 using detail::SimBody;
 using detail::SimulationModel;
 using detail::StepStart;
@@ -72,7 +68,7 @@ class Simulator::Implementation {
       : linked_((require_simulation(loaded), links_as_bodies(loaded))),
         loaded_(linked_.loaded),
         model_(loaded, linked_),
-        script_(loaded_, model_) {
+        script_(linked_, model_) {
     const Scene& scene = loaded_.scene;
     header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
     header_.scene.simulation->contact_distance = model_.distances.least;
@@ -98,6 +94,7 @@ class Simulator::Implementation {
       state_.states.push_back(state);
     }
     state_.rests.assign(state_.states.size(), false);
+    state_.behind.assign(state_.states.size(), 0.0);
     follow_robots(state_.states);
     require_apart(state_.states, [](std::size_t) { return true; });
   }
@@ -256,8 +253,10 @@ class Simulator::Implementation {
     state_.robots = std::move(robots);
     state_.time = step.time;
     state_.count = step.index;
+    state_.is_stuck = detail::is_lost(step);
     for (const RunBody& body : step.bodies) {
       state_.rests[body.body] = body.rests;
+      state_.behind[body.body] = body.behind;
     }
     state_.contacts = step.contacts;
     state_.ties = step.ties;
@@ -265,26 +264,14 @@ class Simulator::Implementation {
 
   std::optional<RunStep> step(const std::stop_token& stop) {
     detail::SimulationState before = state_;
-    std::optional<RunStep> whole;
-    double left = loaded_.scene.simulation->step;
-    for (const double length : script_.parts(state_.time)) {
-      std::optional<RunStep> part = advance(length, stop);
-      if (!part) {
-        state_ = std::move(before);
-        return std::nullopt;
-      }
-      left -= length;
-      whole = whole ? detail::joined(std::move(*whole), std::move(*part)) : std::move(part);
-      if (whole->time_lost > 0.0) {
-        whole->time_lost += std::max(0.0, left);
-        break;
-      }
+    std::optional<RunStep> done =
+        detail::advance_step(model_, script_, *loaded_.scene.simulation, *threads_, stop, state_);
+    if (done) {
+      end_forces(*done);
+    } else {
+      state_ = std::move(before);
     }
-    state_.count = whole->index;
-    state_.contacts = whole->contacts;
-    state_.ties = whole->ties;
-    end_forces(*whole);
-    return whole;
+    return done;
   }
 
  private:
@@ -339,21 +326,6 @@ class Simulator::Implementation {
       std::ranges::find(done.bodies, b, &RunBody::body)->rests = false;
     }
     applied_.clear();
-  }
-
-  /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
-  [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
-    std::vector<ManifoldPoint> touches;
-    touches.reserve(state_.contacts.size());
-    for (const RunContact& contact : state_.contacts) {
-      touches.push_back({.bodies = contact.bodies,
-                         .feature_A = contact.feature_A,
-                         .feature_B = contact.feature_B,
-                         .point = contact.point,
-                         .normal = contact.normal,
-                         .impulse = contact.impulse});
-    }
-    return touches;
   }
 
   static void lock(const Inertia& inertia, RigidState& state) {
@@ -417,22 +389,6 @@ class Simulator::Implementation {
                                   "\" meet at the start; move them apart, or ignore the pair in "
                                   "\"pairs\"");
     }
-  }
-
-  /// A part of a step, in which scripted bodies move straight.
-  std::optional<RunStep> advance(double length, const std::stop_token& stop) {
-    const StepStart start{.time = state_.time,
-                          .h = length,
-                          .states = state_.states,
-                          .scripted = script_.moves(state_.states, state_.time, length),
-                          .robots = state_.robots,
-                          .rests = state_.rests};
-    std::optional<std::vector<IslandTrack>> tracks =
-        detail::advance_islands(model_, start, guesses(), *threads_, stop);
-    if (!tracks) {
-      return std::nullopt;
-    }
-    return detail::record_step(model_, start, *tracks, state_);
   }
 
   LinksAsBodies linked_;

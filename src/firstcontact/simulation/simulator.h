@@ -26,7 +26,8 @@ struct LoadedScene;
 ///
 /// Within a step the in-between motion of every body is known, and every pair is proven apart over
 /// all of it. When a step's events are spent, it ends at the last time proven free: time is lost,
-/// never a distance. The same on every run on one kind of processor.
+/// never a distance. Or a script that would crush something waits (JamRule). The same on every run
+/// on one kind of processor.
 ///
 /// Motion between contacts is exact in free flight under constant forces (but for turning, which is
 /// of second order in the step); contacts make it of first order.

@@ -118,6 +118,7 @@ class Verification {
     result_.least_distance = all_apart ? std::min(result_.least_distance, known()) : 0.0;
     result_.greatest_jump = follower_.greatest_jump();
     result_.scripted_deviation = follower_.scripted_deviation();
+    result_.greatest_behind = follower_.greatest_behind();
     return result_;
   }
 

@@ -61,8 +61,11 @@ struct RunVerification {
   std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
   /// [m]  No point of a scripted body is farther from where its motion in the scene has it, at any
-  /// time.
+  /// time. Where a body is behind, that is where its motion had it so much earlier.
   double scripted_deviation = 0.0;
+  /// [s]  No scripted body is behind its motion by more: it waited rather than crush what was in
+  /// its way.
+  double greatest_behind = 0.0;
   /// The pairs that the proof is about: those of which one is free, links of robots counted as
   /// such.
   PairCounts pair_counts = {};

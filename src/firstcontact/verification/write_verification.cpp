@@ -55,6 +55,7 @@ std::string write_verification(const RunHeader& header, const RunVerification& v
                        {"closest", to_json(header, verification.closest)},
                        {"greatest_jump", to_json(verification.greatest_jump)},
                        {"scripted_deviation", to_json(verification.scripted_deviation)},
+                       {"greatest_behind", to_json(verification.greatest_behind)},
                        {"pair_counts", Json::parse(write_pair_counts(verification.pair_counts))},
                        {"warnings", verification.warnings}};
   return result.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -51,7 +51,7 @@ std::vector<PairSurface> read_pairs(const JsonValue& value, const SceneNames& na
 Simulation read_simulation(const JsonValue& value, const Scene& scene, const JsonReader& read) {
   const JsonObject& object =
       read.object(value, {{"duration", "step", "gravity", "friction", "restitution", "impacts",
-                           "contact_distance", "events", "pairs", "ties"}});
+                           "jams", "contact_distance", "events", "pairs", "ties"}});
   Simulation simulation;
   if (const JsonValue* duration = find(object, "duration")) {
     simulation.duration = read.positive(*duration);
@@ -70,6 +70,9 @@ Simulation read_simulation(const JsonValue& value, const Scene& scene, const Jso
   }
   if (const JsonValue* impacts = find(object, "impacts")) {
     simulation.impacts = read.enumerator<ImpactLaw>(*impacts, kImpactLawWords);
+  }
+  if (const JsonValue* jams = find(object, "jams")) {
+    simulation.jams = read.enumerator<JamRule>(*jams, kJamRuleWords);
   }
   if (const JsonValue* distance = find(object, "contact_distance")) {
     simulation.contact_distance = read.positive(*distance);

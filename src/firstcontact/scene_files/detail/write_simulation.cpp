@@ -167,6 +167,9 @@ JsonValue simulation_to_json(const Scene& scene) {
     object.push_back(
         {"impacts", to_json(kImpactLawWords[static_cast<std::size_t>(simulation.impacts)])});
   }
+  if (simulation.jams != JamRule::lose_time) {
+    object.push_back({"jams", to_json(kJamRuleWords[static_cast<std::size_t>(simulation.jams)])});
+  }
   add_given("contact_distance", simulation.contact_distance, object);
   object.push_back({"events", to_json(simulation.events)});
   JsonArray pairs;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -66,12 +67,16 @@ class Island {
   std::optional<IslandTrack> run() {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
+    for (const auto& [pair, manifold] : state_.manifolds) {
+      meet(pair);
+    }
     if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
     }
     while (state_.reached < state_.start.h) {
       if (track_.events > state_.model.events || stalls >= kMostStalls || is_jammed()) {
+        track_.crushing = crushing();
         break;
       }
       const double reached = state_.reached;
@@ -80,7 +85,7 @@ class Island {
       if (!t) {
         return std::nullopt;
       }
-      if (*t < 1.0) {
+      if (*t < 1.0 && !(tries_again_ && is_jammed())) {
         ++track_.events;
         impact();
       }
@@ -169,7 +174,33 @@ class Island {
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
   /// doubles could not prove it. Or plans go on to break what contacts ask.
   [[nodiscard]] bool is_jammed() const {
-    return squeezed_ >= kMostSqueezed || crushed_ >= kMostCrushed;
+    const std::size_t most = tries_again_ ? kMostCrushedAgain : kMostCrushed;
+    return squeezed_ >= kMostSqueezed || crushed_ >= most;
+  }
+
+  [[nodiscard]] bool is_moved_by_script(std::size_t body) const {
+    const Move& move = state_.start.scripted[body];
+    return move.translation.any() || move.rotation_vector.any();
+  }
+
+  /// Takes note of scripts that are in the way of a plan, or press on the island already.
+  void meet(const BodyPair& pair) {
+    for (const std::size_t body : pair) {
+      if (is_moved_by_script(body)) {
+        scripts_.push_back(body);
+        tries_again_ = tries_again_ || state_.start.waited[body];
+      }
+    }
+  }
+
+  /// The scripted bodies that were hit last, or else all that the island met.
+  [[nodiscard]] std::vector<std::size_t> crushing() const {
+    std::vector<std::size_t> hit;
+    for (const BodyPair& pair : hit_last_) {
+      std::ranges::copy_if(pair, std::back_inserter(hit),
+                           [&](std::size_t body) { return is_moved_by_script(body); });
+    }
+    return hit.empty() ? scripts_ : hit;
   }
 
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
@@ -207,17 +238,25 @@ class Island {
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
       const std::vector<Impact> hits = search.find(plan);
+      for (const Impact& hit : hits) {
+        meet(hit.bodies);
+      }
       if (hits.empty() || round == kRoundsOfSlight ||
           std::ranges::none_of(hits, &Impact::is_slight) || is_in_vain(planner, plan, hits)) {
-        crushed_ += !hits.empty() && plan.is_limited ? 1 : 0;
+        const bool is_crushed = !hits.empty() && !plan.keeps_contacts();
         double t = state_.robots.share_within_limits(plan.robots);
+        hit_last_.clear();
         for (const Impact& hit : hits) {
+          hit_last_.push_back(hit.bodies);
           t = std::min(t, hit.t);
         }
         if (!state_.ties.empty() && state_.taut <= kMostTautEvents) {
           const double within = share_within_cables(state_, plan, planned_);
           state_.taut += within < t ? 1 : 0;
           t = std::min(t, within);
+        }
+        if (is_crushed && ++crushed_ == 1) {
+          track_.crushed = state_.reached + t * planned_;
         }
         move_to(plan, planner.touches(), t, search.clearance());
         return t;
@@ -234,13 +273,14 @@ class Island {
   }
 
   /// Whether another plan would be stopped by the same hits: it has them as constraints, and its
-  /// velocities do not keep these.
-  [[nodiscard]] static bool is_in_vain(const IslandPlanner& planner, const Plan& plan,
-                                       const std::vector<Impact>& hits) {
-    return plan.is_limited && std::ranges::all_of(hits, [&](const Impact& hit) {
-             return std::ranges::all_of(
-                 hit.ahead, [&](const PredictedContact& ahead) { return planner.has(ahead); });
-           });
+  /// velocities do not keep these. A script that tries again needs no more of a sign.
+  [[nodiscard]] bool is_in_vain(const IslandPlanner& planner, const Plan& plan,
+                                const std::vector<Impact>& hits) const {
+    const auto is_known = [&](const Impact& hit) {
+      return std::ranges::all_of(hit.ahead, [&](const auto& ahead) { return planner.has(ahead); });
+    };
+    return (tries_again_ && !plan.is_solved) ||
+           (!plan.keeps_contacts() && std::ranges::all_of(hits, is_known));
   }
 
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
@@ -378,10 +418,13 @@ class Island {
       {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
-  double span_;               // [s]  Longest of a plan, for now.
-  double planned_ = 0.0;      // [s]  Of the plan.
-  std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
-  std::size_t crushed_ = 0;   // Impacts of plans that contacts left no solution.
+  double span_;                            // [s]  Longest of a plan, for now.
+  double planned_ = 0.0;                   // [s]  Of the plan.
+  std::size_t squeezed_ = 0;               // Impacts that left a pair squeezed.
+  std::size_t crushed_ = 0;                // Impacts of plans that contacts left no solution.
+  bool tries_again_ = false;               // A script that was met, after it had to wait.
+  std::vector<std::size_t> scripts_ = {};  // Bodies that were met and that scripts move.
+  std::vector<BodyPair> hit_last_ = {};
 };
 
 }  // namespace

@@ -51,7 +51,9 @@ struct IslandTrack {
   std::vector<ManifoldPoint> touches = {};      ///< That acted last, with their impulses.
   std::vector<RunImpact> impacts = {};          ///< In the order of time.
   std::vector<TieTrackPiece> ties = {};
-  double reached = 0.0;    ///< [s]
+  std::vector<std::size_t> crushing = {};  ///< Scripted bodies that jam the island,
+  double crushed = 0.0;                    ///< and [s] from when on they do; 0 if it is not known.
+  double reached = 0.0;                    ///< [s]
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
   double residual = 0.0;   ///< [m/s]
   std::size_t events = 0;

@@ -15,11 +15,11 @@
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/plan_ties.h>
-#include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/moving_contact.h>
+#include <firstcontact/simulation_model/detail/response.h>
 
 namespace firstcontact::detail {
 
@@ -67,8 +67,10 @@ struct Plan {
   std::vector<RobotPlan> robots = {};
   std::vector<TieTrackPiece> ties = {};  ///< Impulses over the plan.
   double residual = 0.0;                 ///< [m/s]
-  /// Velocities are not what contacts would have them: without limit, or without a solution.
-  bool is_limited = false;
+  bool is_limited = false;               ///< Velocities are shorter than contacts would have them.
+  bool is_solved = true;                 ///< Contacts have a solution, and it was found.
+
+  [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };
 
 /// Makes plans from where an island is now, each with more or tighter constraints than the one

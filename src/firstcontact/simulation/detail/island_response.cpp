@@ -9,9 +9,9 @@
 
 #include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation/detail/sequential_impacts.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/response.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/simulation/detail/island_robots.h>
-#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/response.h>
 
 namespace firstcontact::detail {
 

@@ -17,11 +17,11 @@
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
-#include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/moving_contact.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>
 

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>
 

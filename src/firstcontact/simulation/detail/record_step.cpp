@@ -226,7 +226,8 @@ class StepRecorder {
   RunBody recorded_script(std::size_t b) {
     const double share = lasted_ / start_.h;
     const Move move = start_.scripted[b].part(share);
-    RunBody body{.body = b};
+    state_.behind[b] += start_.waits[b] ? lasted_ : 0.0;
+    RunBody body{.body = b, .behind = state_.behind[b]};
     body.pieces.push_back({lasted_, start_.states[b].X_WB, move.translation, move.rotation_vector});
     RigidState& state = state_.states[b];
     state.X_WB = scripted_pose(model_, start_, b, share);

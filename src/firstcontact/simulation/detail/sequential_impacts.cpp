@@ -9,8 +9,8 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/response.h>
 
 namespace firstcontact::detail {
 namespace {

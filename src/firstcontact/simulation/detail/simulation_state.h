@@ -17,9 +17,11 @@ struct SimulationState {
   std::vector<RigidState> states = {};  ///< Of each body.
   std::vector<MechanismState> robots = {};
   std::vector<bool> rests = {};           ///< Of each body: found at rest in the last step.
+  std::vector<double> behind = {};        ///< [s]  Of each body: so much its script is.
   std::vector<RunContact> contacts = {};  ///< Of the last step, sorted.
   std::vector<RunTie> ties = {};          ///< Of the last step.
   double time = 0.0;                      ///< [s]
+  bool is_stuck = false;                  ///< The last step was lost, or nearly all of it.
   std::size_t count = 0;                  ///< Of steps.
 };
 

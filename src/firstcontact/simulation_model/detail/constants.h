@@ -110,7 +110,12 @@ inline constexpr double kSqueezedOfDistance = 1e-2;
 /// [impacts]  ...and after so many in a step that leave one squeezed the rest of the step is lost.
 inline constexpr std::size_t kMostSqueezed = 20;
 /// [impacts]  The same of impacts that ended a plan whose velocities broke its own constraints.
-inline constexpr std::size_t kMostCrushed = 20;
+inline constexpr std::size_t kMostCrushed = 8;
+/// [impacts]  The same of a script that stood still in the step before, and tries to go on.
+/// Larger: what stays jammed takes longer.
+inline constexpr std::size_t kMostCrushedAgain = 1;
+/// [-]  A step is lost if it lasted less than this, by what is lost of it.
+inline constexpr double kLostOfStep = 1e-2;
 /// [-]  A stall, by the step.
 inline constexpr double kStallOfStep = 1e-9;
 

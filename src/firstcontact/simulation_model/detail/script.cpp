@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -17,17 +18,25 @@ constexpr double kBendOfDistance = 0.5;
 /// [-]  Of a step: what is left of it after the scene is over counts from here on.
 constexpr double kLeastRest = 1e-9;
 
+/// [-]  Of the tolerance of scripts: what moves by less stands still.
+constexpr double kLeastWay = 1e-6;
+
+/// [steps]  Of a search for a time within a step.
+constexpr int kThirds = 60;
+
 }  // namespace
 
-Script::Script(const LoadedScene& loaded, const SimulationModel& model)
-    : loaded_(loaded),
+Script::Script(const LinksAsBodies& linked, const SimulationModel& model)
+    : loaded_(linked.loaded),
       tolerance_(kBendOfDistance * model.distances.least),
-      step_(loaded.scene.simulation->step) {
+      step_(loaded_.scene.simulation->step) {
+  const std::size_t first_link = model.bodies.size() - linked.geometries.size();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SimBody& body = model.bodies[b];
     if (body.kind == BodyKind::scripted) {
       bodies_.push_back(b);
-      motions_.push_back({loaded.bodies.motion(b), body.reach + body.inertia.p_BC.norm()});
+      motions_.push_back({loaded_.bodies.motion(b), body.reach + body.inertia.p_BC.norm()});
+      movers_.push_back(b < first_link ? b : first_link + linked.geometries[b - first_link].robot);
     }
   }
 }
@@ -64,18 +73,88 @@ std::vector<double> Script::parts(double time) const {
   return lengths;
 }
 
-std::vector<Move> Script::moves(const std::vector<RigidState>& states, double time,
-                                double length) const {
+std::vector<Move> Script::moves(const std::vector<RigidState>& states, double time, double length,
+                                const std::vector<double>& behind,
+                                const std::vector<bool>& waits) const {
   std::vector<Move> moves(states.size());
-  const double from = share(time);
-  const double to = share(time + length);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const Pose& X_WB = states[bodies_[k]].X_WB;
+    const std::size_t b = bodies_[k];
+    if (waits[b]) {
+      continue;
+    }
+    const double from = share(time - behind[b]);
+    const double to = share(time - behind[b] + length);
+    const Pose& X_WB = states[b].X_WB;
     const Motion& motion = motions_[k].motion;
-    moves[bodies_[k]] = {motion.pose(to).position - X_WB.position,
-                         rotation_along(motion, from, to, X_WB.rotation)};
+    moves[b] = {motion.pose(to).position - X_WB.position,
+                rotation_along(motion, from, to, X_WB.rotation)};
   }
   return moves;
+}
+
+bool Script::wait(const std::vector<std::size_t>& bodies, const std::vector<Move>& moves,
+                  std::vector<bool>& waits) const {
+  std::vector<std::size_t> waiting;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const Move& move = moves[bodies_[k]];
+    const double way = move.translation.norm() + motions_[k].reach * move.rotation_vector.norm();
+    if (way > kLeastWay * tolerance_ && std::ranges::find(bodies, bodies_[k]) != bodies.end()) {
+      waiting.push_back(movers_[k]);
+    }
+  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const bool has_to = std::ranges::find(waiting, movers_[k]) != waiting.end();
+    waits[bodies_[k]] = waits[bodies_[k]] || has_to;
+  }
+  return !waiting.empty();
+}
+
+void Script::return_to(const std::vector<RigidState>& states, double time,
+                       std::vector<double>& behind) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (behind[bodies_[k]] >= 2.0 * step_) {
+      if (const std::optional<double> at = came_by(movers_[k], states, time)) {
+        for (std::size_t other = k; other < bodies_.size(); ++other) {
+          if (movers_[other] == movers_[k]) {
+            behind[bodies_[other]] = time - *at;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// [m]  How far at most a mover's points are from where its script has them.
+double Script::distance_at(std::size_t mover, const std::vector<RigidState>& states,
+                           double time) const {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (movers_[k] == mover) {
+      const Pose there = motions_[k].motion.pose(share(time));
+      const Pose& X_WB = states[bodies_[k]].X_WB;
+      farthest =
+          std::max(farthest, (there.position - X_WB.position).norm() +
+                                 motions_[k].reach * there.rotation.angularDistance(X_WB.rotation));
+    }
+  }
+  return farthest;
+}
+
+/// [s]  When the script had a mover where it is, in the last step. It is found where the
+/// way there and on is straight.
+std::optional<double> Script::came_by(std::size_t mover, const std::vector<RigidState>& states,
+                                      double time) const {
+  double from = time - step_;
+  double to = time;
+  for (int k = 0; k < kThirds; ++k) {
+    const double third = (to - from) / 3.0;
+    if (distance_at(mover, states, from + third) < distance_at(mover, states, to - third)) {
+      to -= third;
+    } else {
+      from += third;
+    }
+  }
+  return distance_at(mover, states, to) <= tolerance_ ? std::optional(to) : std::nullopt;
 }
 
 }  // namespace firstcontact::detail

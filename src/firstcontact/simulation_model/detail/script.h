@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <firstcontact/contact_solver/kinetics.h>
@@ -11,6 +12,7 @@
 #include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact {
+struct LinksAsBodies;
 struct LoadedScene;
 }  // namespace firstcontact
 
@@ -22,10 +24,13 @@ struct SimulationModel;
 ///
 /// A piece of a run moves the body's origin on a line. Where a script bends away from that by more
 /// than half the contact distance, the step is taken in parts.
+///
+/// A body waits where it would crush what is in its way. Its script is behind then, and goes on as
+/// it was.
 class Script {
  public:
-  /// @param loaded  outlives this
-  Script(const LoadedScene& loaded, const SimulationModel& model);
+  /// @param linked  outlives this
+  Script(const LinksAsBodies& linked, const SimulationModel& model);
 
   /// [s]  How long each part of a step lasts: one, where all scripts are straight.
   ///
@@ -33,20 +38,44 @@ class Script {
   /// @throws std::invalid_argument  if a script moves too wildly for the step
   [[nodiscard]] std::vector<double> parts(double time) const;
 
-  /// What each body does in a part; nothing but for scripted ones.
+  /// What each body does in a part; nothing but for scripted ones that do not wait.
   ///
   /// @param states  at the begin; bodies that are off their script return to it
+  /// @param behind  [s]  by so much the script of each body is
+  /// @param waits   of each body: it stands still
   [[nodiscard]] std::vector<Move> moves(const std::vector<RigidState>& states, double time,
-                                        double length) const;
+                                        double length, const std::vector<double>& behind,
+                                        const std::vector<bool>& waits) const;
+
+  /// Lets scripted bodies that move wait in the rest of a step, all links of a robot together.
+  ///
+  /// @param bodies  in any order
+  /// @param moves   of the part
+  /// @returns  whether any moved
+  bool wait(const std::vector<std::size_t>& bodies, const std::vector<Move>& moves,
+            std::vector<bool>& waits) const;
+
+  /// Scripts that led bodies back, in the last step, to where they had to wait go on from there:
+  /// a press opens when its script has it open.
+  ///
+  /// @param behind  [s]  at `time`; less, where a script came by
+  void return_to(const std::vector<RigidState>& states, double time,
+                 std::vector<double>& behind) const;
 
  private:
   [[nodiscard]] double share(double time) const;
+  [[nodiscard]] double distance_at(std::size_t mover, const std::vector<RigidState>& states,
+                                   double time) const;
+  [[nodiscard]] std::optional<double> came_by(std::size_t mover,
+                                              const std::vector<RigidState>& states,
+                                              double time) const;
 
   const LoadedScene& loaded_;
   double tolerance_;  // [m]
   double step_;       // [s]
   std::vector<std::size_t> bodies_;
   std::vector<ScriptedMotion> motions_;  // Of each of them.
+  std::vector<std::size_t> movers_;      // Of each of them: those of the same one move together.
 };
 
 }  // namespace firstcontact::detail

@@ -22,7 +22,9 @@ struct StepStart {
   std::vector<RigidState> states = {};  ///< Velocities of free bodies.
   std::vector<Move> scripted = {};      ///< Over the step; zero but for scripted bodies.
   std::vector<MechanismState> robots = {};
-  std::vector<bool> rests = {};  ///< Of every body: found at rest in the step before.
+  std::vector<bool> rests = {};   ///< Of every body: found at rest in the step before.
+  std::vector<bool> waits = {};   ///< Of every body: its script stands still over the step.
+  std::vector<bool> waited = {};  ///< Likewise, in the step before.
 };
 
 /// Where a scripted or fixed body is, a share of the step after its begin.

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <firstcontact/scene/scene.h>
-#include <firstcontact/verification/detail/script_deviation.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -39,6 +38,7 @@ RunFollower::RunFollower(const std::vector<RunMember>& members, const Scene& sce
   for (const RunMember& member : members) {
     poses_.push_back(member.start);
   }
+  behind_.assign(members.size(), 0.0);
 }
 
 FollowedStep RunFollower::follow(const RunStep& step) {
@@ -111,10 +111,16 @@ FollowedBody RunFollower::follow_body(const RunStep& step, const RunBody& body) 
   const PieceMotion begin(poses_[b], 0.0, 0.0, p_BC);
   const PieceMotion end(body.X_WB, from, from, p_BC);
   const PieceMotion* last = &begin;
+  const bool goes_on = body.behind == behind_[b];
   for (const PieceMotion& piece : followed.pieces) {
     followed.jump = std::max(followed.jump, jump(b, *last, last->to(), piece, piece.from()));
     last = &piece;
-    require_scripted(b, piece, step);
+    if (goes_on) {
+      require_scripted(b, piece, step);
+    }
+  }
+  if (!goes_on) {
+    require_behind(body, end, step);
   }
   followed.jump = std::max(followed.jump, jump(b, *last, last->to(), end, from));
   poses_[b] = body.X_WB;
@@ -138,27 +144,51 @@ double RunFollower::jump(std::size_t body, const PieceMotion& from, double from_
   return deviation;
 }
 
+ScriptDeviation RunFollower::deviation_of(std::size_t body, const PieceMotion& piece) const {
+  const RunMember& member = members_[body];
+  if (!member.uncertain.empty()) {
+    throw UncertainMotion("the script of \"" + member.name + "\": " + member.uncertain);
+  }
+  return script_deviation(piece, time_ - behind_[body], member.script, duration_,
+                          member.tree.nodes[0].reach);
+}
+
 /// At its end a step is where the script is; before, and where it ended early, within what lies
 /// between a script and straight pieces.
 void RunFollower::require_scripted(std::size_t body, const PieceMotion& piece,
                                    const RunStep& step) {
-  const RunMember& member = members_[body];
-  if (member.is_free) {
+  if (members_[body].is_free) {
     return;
   }
-  if (!member.uncertain.empty()) {
-    throw UncertainMotion("the script of \"" + member.name + "\": " + member.uncertain);
-  }
-  const double reach = member.tree.nodes[0].reach;
-  const ScriptDeviation deviation = script_deviation(piece, time_, member.script, duration_, reach);
+  const ScriptDeviation deviation = deviation_of(body, piece);
   const bool ends_the_step = piece.to() == step.lasted && !(step.time_lost > 0.0);
   if (!(deviation.at_end <= (ends_the_step ? scripted_tolerance_ : bend_tolerance_)) ||
       !(deviation.within <= bend_tolerance_)) {
-    throw BrokenRun("\"" + member.name + "\" is up to " + number(deviation.within) +
+    throw BrokenRun("\"" + members_[body].name + "\" is up to " + number(deviation.within) +
                     " m from where its motion in the scene puts it until " +
                     number(time_ + piece.to()) + " s");
   }
   scripted_deviation_ = std::max(scripted_deviation_, deviation.within);
+}
+
+/// A body that waited in a step, or whose script came back to it, ends about where its script was.
+///
+/// @param end  of the step
+void RunFollower::require_behind(const RunBody& body, const PieceMotion& end, const RunStep& step) {
+  const RunMember& member = members_[body.body];
+  behind_[body.body] = body.behind;
+  const double most = time_ + step.lasted;
+  if (member.is_free || !(body.behind >= 0.0 && body.behind <= most)) {
+    throw BrokenRun("\"" + member.name + "\" is said to be " + number(body.behind) +
+                    " s behind its motion in the scene at " + number(most) + " s");
+  }
+  greatest_behind_ = std::max(greatest_behind_, body.behind);
+  const double deviation = deviation_of(body.body, end).at_end;
+  if (!(deviation <= bend_tolerance_)) {
+    throw BrokenRun("\"" + member.name + "\" is " + number(deviation) +
+                    " m from where its motion in the scene has it " + number(body.behind) +
+                    " s before " + number(most) + " s");
+  }
 }
 
 }  // namespace firstcontact::detail

@@ -15,6 +15,7 @@
 #include <firstcontact/verification/detail/box_tree.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
+#include <firstcontact/verification/detail/script_deviation.h>
 
 namespace firstcontact {
 struct Scene;
@@ -68,6 +69,7 @@ class RunFollower {
   [[nodiscard]] double time() const { return time_; }                    ///< [s]
   [[nodiscard]] double greatest_jump() const { return greatest_jump_; }  ///< [m]
   [[nodiscard]] double scripted_deviation() const { return scripted_deviation_; }
+  [[nodiscard]] double greatest_behind() const { return greatest_behind_; }  ///< [s]
 
  private:
   void require_times(const RunStep& step) const;
@@ -75,17 +77,21 @@ class RunFollower {
   [[nodiscard]] double jump(std::size_t body, const PieceMotion& from, double from_time,
                             const PieceMotion& to, double to_time);
   void require_scripted(std::size_t body, const PieceMotion& piece, const RunStep& step);
+  void require_behind(const RunBody& body, const PieceMotion& end, const RunStep& step);
+  [[nodiscard]] ScriptDeviation deviation_of(std::size_t body, const PieceMotion& piece) const;
 
   const std::vector<RunMember>& members_;
   double duration_;                         // [s]  Of the scene.
   std::optional<double> step_length_ = {};  // [s]  Of a scene with a simulation.
   double scripted_tolerance_;
-  double bend_tolerance_;    // [m]  Of scripts within steps.
-  std::vector<Pose> poses_;  // As last recorded.
+  double bend_tolerance_;       // [m]  Of scripts within steps.
+  std::vector<Pose> poses_;     // As last recorded.
+  std::vector<double> behind_;  // [s]  Likewise: so much scripts are.
   std::size_t step_ = 0;
   double time_ = 0.0;
   double greatest_jump_ = 0.0;
   double scripted_deviation_ = 0.0;
+  double greatest_behind_ = 0.0;
 };
 
 }  // namespace firstcontact::detail

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/response.h>
 
 #include <algorithm>
 #include <cmath>
