@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -63,6 +64,40 @@ TEST(RobotMotion, MovesAPlanarArm) {
     const Vector3d expected(std::cos(a) + 0.5 * std::cos(b), std::sin(a) + 0.5 * std::sin(b), 0.0);
     EXPECT_LE((hand.at(t).pose(t).p_OL - expected).norm(), 1e-15);
   }
+}
+
+// A joint that mimics another follows its new motion; others keep theirs.
+TEST(RobotMotion, ChangesTheMotionOfSomeJoints) {
+  RobotDescription description{
+      .name = "arm",
+      .links = {{"base", {}, {}}, {"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}},
+      .joints = {}};
+  const char* names[] = {"first", "second", "third"};
+  const char* links[] = {"base", "a", "b", "c"};
+  for (int k = 0; k < 3; ++k) {
+    Joint joint{
+        .name = names[k], .type = JointType::revolute, .parent = links[k], .child = links[k + 1]};
+    joint.X_PJ.position.x() = 1.0;
+    joint.axis = Vector3d::Unit(k);
+    description.joints.push_back(joint);
+  }
+  description.joints[2].mimic = Mimic{.joint = "first", .multiplier = -0.5, .offset = 0.25};
+  const RobotModel model(description);
+  const RobotMotion before(model, {{"first", ramp(0.0, 1.0)}, {"second", ramp(0.5, -1.5)}});
+  const std::array<double, 3> times = {0.0, 0.25, 1.0};
+  const std::array<double, 3> places = {0.0, 2.0, 1.0};
+  const CoordinatePath bent = CoordinatePath::linear(times, places);
+  const RobotMotion anew(model, {{"first", bent}, {"second", ramp(0.5, -1.5)}});
+  const RobotMotion changed = before.with({{0, bent}});
+  EXPECT_TRUE(std::ranges::equal(changed.breaks(), anew.breaks()));
+  for (const double t : {0.0, 0.2, 0.25, 0.7, 1.0}) {
+    const auto place = [&](const RobotMotion& motion) { return motion.path(3, t).pose(t).p_OL; };
+    EXPECT_EQ(place(changed), place(anew));
+  }
+  EXPECT_EQ(before.breaks().size(), 2u);
+  EXPECT_THROW((void)before.with({{2, bent}}), std::invalid_argument);
+  EXPECT_THROW((void)before.with({{0, Motion::fixed()}}), std::invalid_argument);
+  EXPECT_THROW((void)before.with({{0, ramp(0.0, 1e9)}}), std::invalid_argument);
 }
 
 /// Twists and their bounds, in closed form: a point at radius r of one turning joint.

@@ -111,30 +111,34 @@ double length_of(const RobotModel& model) {
   return length + part;
 }
 
-/// Gives a coordinate of a robot its path.
-void set_path(std::map<std::string, JointMotion>& joints, const RobotModel& model,
-              const SpaceCoordinate& coordinate, CoordinatePath path) {
-  JointMotion& joint = joints.at(model.joints()[coordinate.joint].name);
-  if (auto* planar = std::get_if<PlanarPath>(&joint)) {
-    (*planar)[coordinate.index] = std::move(path);
-  } else {
-    joint = std::move(path);
+/// Gives a coordinate of a robot its path; other coordinates of its joint are those of the rest
+/// unless they have theirs.
+void set_path(const SpaceCoordinate& coordinate, CoordinatePath path, const RobotMotion& rest,
+              std::vector<std::pair<std::size_t, JointMotion>>& joints) {
+  if (rest.model().joints()[coordinate.joint].type != JointType::planar) {
+    joints.emplace_back(coordinate.joint, std::move(path));
+    return;
   }
+  auto found =
+      std::ranges::find(joints, coordinate.joint, &std::pair<std::size_t, JointMotion>::first);
+  if (found == joints.end()) {
+    found = joints.emplace(joints.end(), coordinate.joint, *rest.given(coordinate.joint));
+  }
+  std::get<PlanarPath>(found->second)[coordinate.index] = std::move(path);
 }
 
 }  // namespace
 
-ConfigurationSpace::ConfigurationSpace(RobotModel model, Motion base,
-                                       std::map<std::string, JointMotion> held) {
+ConfigurationSpace::ConfigurationSpace(RobotModel model) {
   const double reach = length_of(model);
-  movers_.push_back({std::move(model), std::move(base), std::move(held), reach});
+  movers_.push_back({std::move(model), reach, {}});
 }
 
 ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
                                                  std::span<const std::string> names,
                                                  std::map<std::string, JointMotion> held,
                                                  Motion base) {
-  ConfigurationSpace space(std::move(model), std::move(base), std::move(held));
+  ConfigurationSpace space(std::move(model));
   const RobotModel& of = space.model();
   if (names.empty()) {
     refuse_space("expected at least one joint that moves, got none");
@@ -161,6 +165,7 @@ ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
     narrow_by_mimics(of, found.joint, 1.0, 0.0, coordinate);
     space.coordinates_.push_back(std::move(coordinate));
   }
+  space.movers_.front().rest.emplace(of, std::move(held), std::move(base));
   return space;
 }
 
@@ -174,7 +179,7 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
   RobotDescription description{.name = name, .links = {{.name = "body"}}, .joints = {}};
   description.links[0].collision.push_back(
       {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
-  ConfigurationSpace space(RobotModel(std::move(description)), Motion::fixed(), {});
+  ConfigurationSpace space{RobotModel(std::move(description))};
   space.is_body_ = true;
   space.edges_ = edges;
   space.low_ = low;
@@ -336,8 +341,9 @@ RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
             Motion::waypoints(times, poses,
                               has_screws() ? Between::screw : Between::constant_velocity)};
   }
-  const Mover& moved = movers_[mover];
-  std::map<std::string, JointMotion> joints = moved.held;
+  const RobotMotion& rest = *movers_[mover].rest;
+  std::vector<std::pair<std::size_t, JointMotion>> joints;
+  joints.reserve(coordinates_.size());
   std::vector<double> positions(places.size());
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
@@ -345,11 +351,11 @@ RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
       for (std::size_t i = 0; i < places.size(); ++i) {
         positions[i] = places[i][k];
       }
-      set_path(joints, moved.model, coordinate,
-               CoordinatePath::linear(times, positions, turning_of(coordinate)));
+      set_path(coordinate, CoordinatePath::linear(times, positions, turning_of(coordinate)), rest,
+               joints);
     }
   }
-  return {moved.model, std::move(joints), moved.base};
+  return rest.with(std::move(joints));
 }
 
 double ConfigurationSpace::travel_time(const Configuration& from, const Configuration& to,

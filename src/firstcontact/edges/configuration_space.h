@@ -168,13 +168,12 @@ class FIRSTCONTACT_API ConfigurationSpace {
  private:
   struct Mover {
     RobotModel model;
-    Motion base;
-    std::map<std::string, JointMotion> held;  // Every joint that moves, at rest.
     double reach = 0.0;  // [m]  Of a body from its origin; of a robot, how long it can be.
+    std::optional<RobotMotion> rest;  // Of a robot, with every joint held.
   };
 
   ConfigurationSpace() = default;
-  ConfigurationSpace(RobotModel model, Motion base, std::map<std::string, JointMotion> held);
+  explicit ConfigurationSpace(RobotModel model);
 
   [[nodiscard]] std::optional<std::string> defect_of_body(const Configuration& q) const;
   [[nodiscard]] Motion body_motion(const Configuration& from, const Configuration& to) const;

@@ -75,13 +75,18 @@ const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, 
   return *found;
 }
 
-/// A joint's coordinate, through those that it mimics.
-const CoordinatePath& source_path(const RobotModel& model, const std::vector<AnyMotion>& motions,
-                                  std::size_t joint) {
+/// The joint itself, or the one that it mimics in the end.
+std::size_t source_of(const RobotModel& model, std::size_t joint) {
   while (model.joints()[joint].mimic) {
     joint = model.find_joint(model.joints()[joint].mimic->joint).value();
   }
-  return std::get<CoordinatePath>(motions[joint]);
+  return joint;
+}
+
+/// A joint's coordinate, through those that it mimics.
+const CoordinatePath& source_path(const RobotModel& model, const std::vector<AnyMotion>& motions,
+                                  std::size_t joint) {
+  return std::get<CoordinatePath>(motions[source_of(model, joint)]);
 }
 
 CoordinateSegment coordinate(const RobotModel& model, const std::vector<AnyMotion>& motions,
@@ -188,6 +193,12 @@ void sort_times(std::vector<double>& times) {
   times.erase(std::unique(times.begin(), times.end()), times.end());
 }
 
+/// Takes the motion of a joint, which has to be one of its type.
+void set(const Joint& joint, JointMotion&& motion, AnyMotion& own) {
+  require_match(joint, motion);
+  std::visit([&](auto& kind) { own = std::move(kind); }, motion);
+}
+
 std::vector<AnyMotion> checked_motions(const RobotModel& model,
                                        std::map<std::string, JointMotion>&& joints) {
   std::vector<AnyMotion> motions(model.joints().size());
@@ -196,8 +207,7 @@ std::vector<AnyMotion> checked_motions(const RobotModel& model,
     if (!index) {
       refuse(name, "is not a joint of the robot '" + model.name() + "'");
     }
-    require_match(model.joints()[*index], motion);
-    std::visit([&](auto& kind) { motions[*index] = std::move(kind); }, motion);
+    set(model.joints()[*index], std::move(motion), motions[*index]);
   }
   for (std::size_t j = 0; j < motions.size(); ++j) {
     const Joint& joint = model.joints()[j];
@@ -264,6 +274,15 @@ struct RobotMotion::Data {
   Pieces base_pieces;
   std::vector<Pieces> joint_pieces;  // Empty for fixed joints.
   std::vector<double> breaks;
+
+  void find_breaks() {
+    breaks = {0.0};
+    add_ends(breaks, base);
+    for (const Pieces& pieces : joint_pieces) {
+      breaks.insert(breaks.end(), pieces.ends.begin(), pieces.ends.end());
+    }
+    sort_times(breaks);
+  }
 };
 
 LinkMotion::LinkMotion(std::vector<LinkPath> pieces) : pieces_(std::move(pieces)) {}
@@ -301,17 +320,33 @@ RobotMotion::RobotMotion(RobotModel model, std::map<std::string, JointMotion> jo
                                           .base_pieces = std::move(base_pieces),
                                           .joint_pieces = {},
                                           .breaks = {}});
-  data->breaks = {0.0};
-  add_ends(data->breaks, data->base);
   data->joint_pieces.reserve(model_.joints().size());
   for (std::size_t j = 0; j < model_.joints().size(); ++j) {
     const bool moves = model_.joints()[j].type != JointType::fixed;
     data->joint_pieces.push_back(moves ? pieces_of(model_, data->motions, j) : Pieces{});
-    const std::vector<double>& ends = data->joint_pieces.back().ends;
-    data->breaks.insert(data->breaks.end(), ends.begin(), ends.end());
   }
-  sort_times(data->breaks);
+  data->find_breaks();
   data_ = std::move(data);
+}
+
+RobotMotion RobotMotion::with(std::vector<std::pair<std::size_t, JointMotion>> joints) const {
+  const FloatEnvironmentGuard guard;
+  auto data = std::make_shared<Data>(*data_);
+  std::vector<bool> is_given(model_.joints().size(), false);
+  for (auto& [joint, motion] : joints) {
+    set(model_.joints()[joint], std::move(motion), data->motions[joint]);
+    is_given[joint] = true;
+  }
+  for (std::size_t j = 0; j < is_given.size(); ++j) {
+    if (is_given[source_of(model_, j)]) {
+      require_sizes(model_, data->motions, j);
+      data->joint_pieces[j] = pieces_of(model_, data->motions, j);
+    }
+  }
+  data->find_breaks();
+  RobotMotion changed = *this;
+  changed.data_ = std::move(data);
+  return changed;
 }
 
 std::span<const double> RobotMotion::breaks() const { return data_->breaks; }
