@@ -41,6 +41,7 @@ namespace fs = std::filesystem;
 
 constexpr double kEdgeLengths[] = {0.5, 2.0};  // [rad]
 constexpr int kEdgesOfProblem = 50;
+constexpr double kFractionTolerance = 1e-3;
 
 struct Settings {
   std::uint64_t seeds = 5;
@@ -196,7 +197,7 @@ json edges(const Settings& settings) {
     std::size_t undecided = 0;
     for (const std::string family : kPandaFamilies) {
       for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
-        const EdgeChecker checker(scene.plan);
+        const EdgeChecker checker(scene.plan, {.fraction_tolerance = kFractionTolerance});
         RandomNumbers random(static_cast<std::uint64_t>(problem));
         const ConfigurationSpace& space = scene.plan.space;
         for (int k = 0; k < kEdgesOfProblem; ++k) {

@@ -86,6 +86,65 @@ TEST(EdgeChecker, SeesAPlateBetweenAnyTwoSamples) {
   }
 }
 
+/// The fractions of edges that the gantry's tool, at a speed, ends in the wall at x = 0.
+void expect_fractions(double tolerance, double from_x, double to_x) {
+  const EdgeChecker checker(with_gantry(thin_wall(0.0)), {.fraction_tolerance = tolerance});
+  Random random(3);
+  for (int k = 0; k < rounds(40, 10); ++k) {
+    const Configuration from = {from_x, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
+    const Configuration to = {to_x, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
+    const EdgeAnswer answer = checker.check(from, to);
+    ASSERT_EQ(answer.verdict, EdgeVerdict::blocked) << k;
+    const double meets = (-0.100005 - from_x) / (to_x - from_x);
+    const double by_distance = 1.1e-6 / (to_x - from_x);
+    ASSERT_LE(answer.fraction, meets) << k;
+    ASSERT_GE(answer.fraction, meets - tolerance - by_distance - 1e-12) << k;
+    ASSERT_EQ(checker.check_quickly(from, to).verdict, EdgeVerdict::blocked) << k;
+  }
+}
+
+TEST(EdgeChecker, MayTellAFractionThatIsLessByItsTolerance) {
+  for (const double tolerance : {0.0, 1e-3, 0.1, 1.0}) {
+    expect_fractions(tolerance, -1.0, 1.0);
+    expect_fractions(tolerance, -2.0, -0.1);      // Blocked at the very end.
+    expect_fractions(tolerance, -0.10002, 2.0);   // So, too, at the very begin;
+    expect_fractions(tolerance, -0.10002, -0.1);  // and along a very short edge.
+  }
+  EXPECT_THROW(EdgeChecker(with_gantry(RobotScene()), {.fraction_tolerance = -1e-9}),
+               std::invalid_argument);
+  EXPECT_THROW(EdgeChecker(with_gantry(RobotScene()), {.fraction_tolerance = 1.1}),
+               std::invalid_argument);
+  EXPECT_THROW(EdgeChecker(with_gantry(RobotScene()),
+                           {.fraction_tolerance = std::numeric_limits<double>::quiet_NaN()}),
+               std::invalid_argument);
+}
+
+TEST(EdgeChecker, HasNoFractionWhereAnEdgeBeginsBlocked) {
+  const EdgeChecker checker(with_gantry(thin_wall(0.0)), {.fraction_tolerance = 1e-3});
+  for (const double x : {-0.100005, -0.05, 0.0}) {
+    for (const double way : {0.0, 1e-12, -1.0, 1.0}) {
+      const EdgeAnswer answer = checker.check({x, 0.0, 0.0}, {x + way, 0.0, 0.0});
+      EXPECT_EQ(answer.verdict, EdgeVerdict::blocked) << x << ' ' << way;
+      EXPECT_EQ(answer.fraction, 0.0) << x << ' ' << way;
+    }
+  }
+}
+
+// Along a wall within the tolerance an edge is blocked from its begin on or not at all; beyond it
+// is free, however small the gap.
+TEST(EdgeChecker, GrazesWithAFractionTolerance) {
+  const EdgeChecker checker(with_gantry(thin_wall(0.0)), {.fraction_tolerance = 1e-3});
+  for (const double gap : {1.1e-6, 1e-5, 1e-4}) {
+    const double x = -0.100005 - gap;
+    EXPECT_EQ(checker.check({x, -1.0, 0.3}, {x, 1.0, -0.4}).verdict, EdgeVerdict::free) << gap;
+  }
+  // It comes as near as that in the middle of the edge only, then leaves.
+  const EdgeAnswer dives = checker.check({-0.1001, -1.5, 0.0}, {-0.1, 1.5, 0.0});
+  EXPECT_EQ(dives.verdict, EdgeVerdict::blocked);
+  EXPECT_LE(dives.fraction, 0.95);
+  EXPECT_GE(dives.fraction, 0.95 - 1e-3 - 0.011);
+}
+
 TEST(EdgeChecker, FreesAnEdgeWithItsClearance) {
   const EdgeChecker checker(with_gantry(thin_wall(0.0)));
   const Configuration from = {-0.15, -1.0, 0.3};

@@ -36,6 +36,8 @@ void require_options(const EdgeCheckOptions& options) {
                  "tolerance must be finite and > 0");
   require_option(options.extra_clearance >= 0.0 && std::isfinite(options.extra_clearance),
                  "extra_clearance must be finite and >= 0");
+  require_option(options.fraction_tolerance >= 0.0 && options.fraction_tolerance <= 1.0,
+                 "fraction_tolerance must be in [0, 1]");
   require_option(options.effort >= 1, "effort must be at least 1");
   for (const HeldPair& pair : options.held) {
     require_option(pair.distance > 0.0 && std::isfinite(pair.distance),
@@ -183,10 +185,11 @@ struct EdgeChecker::Data {
   /// What one thread works with.
   struct ThreadWork {
     explicit ThreadWork(const Data& data)
-        : search(data.padded, detail::question_of_edges(data.options)) {
+        : search(data.padded, detail::question_of_edges(data.options),
+                 data.options.fraction_tolerance) {
       if (data.held) {
         search_of_held = std::make_unique<detail::EdgeSearch>(
-            *data.held, detail::question_of_held(data.options));
+            *data.held, detail::question_of_held(data.options), data.options.fraction_tolerance);
       }
     }
 

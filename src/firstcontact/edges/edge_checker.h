@@ -75,6 +75,9 @@ struct EdgeCheckOptions {
   /// [m]  Added to the margins of all pairs, so that pieces of a free edge between rounded places
   /// keep the margins themselves; >= 0.
   double extra_clearance = 1e-9;
+  /// [-]  By so much the fraction of a blocked edge may be less than that of its first contact; in
+  /// [0, 1]. A thousandth takes less time than 0.
+  double fraction_tolerance = 0.0;
   /// Steps of the search for each two geometries; more is undecided. At least 1.
   std::uint64_t effort = 100'000;
   std::optional<std::chrono::steady_clock::time_point> deadline = {};

@@ -28,6 +28,9 @@ using detail::FoundPath;
 using detail::PlanWork;
 
 constexpr std::uint64_t kLessEffort = 20;
+
+/// [-]  Trees grow to less than a blocked edge's fraction; slides begin where it ends.
+constexpr double kFractionTolerance = 1e-3;
 constexpr int kWiderMargins = 12;  // Each twice as wide as the one before.
 
 void require_plan(bool condition, const std::string& what) {
@@ -172,6 +175,7 @@ class PlanSearch {
   [[nodiscard]] EdgeCheckOptions options_of_search(EdgePlace place, std::uint64_t effort) const {
     return {.tolerance = options_.tolerance,
             .extra_clearance = kept_by_search(options_),
+            .fraction_tolerance = options_.contacts == ContactUse::none ? kFractionTolerance : 0.0,
             .effort = effort,
             .stop = options_.stop,
             .held = contacts_.held_in_search(place)};

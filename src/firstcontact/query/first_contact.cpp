@@ -125,6 +125,7 @@ struct Query {
   detail::WorkspaceData& workspace;
   Hold hold;
   const detail::BoxFront* front = nullptr;  ///< null: begins at the roots
+  double early = 0.0;                       ///< [-]  as SearchLimits::early
 };
 
 /// The pair that decided, alone.
@@ -197,6 +198,7 @@ bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult&
       .tolerance = std::min(coarse, query.hold.tolerance),
       .band = margin + coarse,
       .asked = std::min(options.tolerance, query.hold.tolerance),
+      .early = query.early,
       .lines = by_triangles && query.lines->exist(state) ? query.lines : nullptr,
       .budget = options.budget,
       .A = pair.is_convex() ? nullptr : &A,
@@ -212,7 +214,7 @@ bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult&
   result.tolerance_used = tolerance_of(found, limits, above, coarse, options.tolerance);
   result.t = found.t;
   if (found.contact) {
-    result.t_upper = found.t;
+    result.t_upper = std::max(found.t, found.t_upper);
   }
   if (found.reason != UndecidedReason::none) {
     result.verdict = Verdict::undecided;
@@ -285,9 +287,11 @@ void solve_solids(const Query& query, const RelativeState& start, FirstContactRe
 
 /// @param lines  null where they are not known
 /// @param held   how near the two may come; null: as the options say
+/// @param early  [-]  as SearchLimits::early
 void answer(const ShapePair& pair, const TimeWindow& window, const detail::CornerLines* lines,
             const Hold* held, Workspace& workspace, const FirstContactOptions& options,
-            FirstContactResult& result, const detail::BoxFront* front = nullptr) {
+            FirstContactResult& result, const detail::BoxFront* front = nullptr,
+            double early = 0.0) {
   detail::validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
@@ -313,7 +317,7 @@ void answer(const ShapePair& pair, const TimeWindow& window, const detail::Corne
     hold = detail::keep_half(gap_at(pair, start, workspace.data(), options, result.work),
                              options.margin);
   }
-  const Query query{pair, window, options, lines, workspace.data(), hold, front};
+  const Query query{pair, window, options, lines, workspace.data(), hold, front, early};
   if (has_inside) {
     solve_solids(query, start, result);
   } else {
@@ -365,6 +369,14 @@ void detail::first_contact_held(const ShapePair& pair, const TimeWindow& window,
                                 Workspace& workspace, const FirstContactOptions& options,
                                 FirstContactResult& result) {
   answer(pair, window, nullptr, &hold, workspace, options, result);
+}
+
+void detail::first_contact_early(const ShapePair& pair, const TimeWindow& window, double early,
+                                 Workspace& workspace, const FirstContactOptions& options,
+                                 FirstContactResult& result) {
+  FirstContactOptions asked = options;
+  asked.contacts = ContactState::none;
+  answer(pair, window, nullptr, nullptr, workspace, asked, result, nullptr, early);
 }
 
 void detail::first_contact_within(const MovingShape& A, const MovingShape& B,

@@ -53,6 +53,8 @@ LinkScratch::~LinkScratch() = default;
 LinkScratch::LinkScratch(LinkScratch&&) noexcept = default;
 LinkScratch& LinkScratch::operator=(LinkScratch&&) noexcept = default;
 
+void LinkScratch::forget() { memory_->forget(); }
+
 LinkState LinkPath::state(double t, LinkScratch& scratch, const DoubleDoubleVector3& p_FO) const {
   return scratch.memory().walk(joints_, t, p_FO).end().state();
 }

@@ -138,6 +138,9 @@ class FIRSTCONTACT_API LinkScratch {
 
   [[nodiscard]] detail::ChainMemory& memory() { return *memory_; }
 
+  /// Drops what it has of paths that are gone: what is looked for is found sooner.
+  void forget();
+
  private:
   std::unique_ptr<detail::ChainMemory> memory_;
 };

@@ -98,6 +98,25 @@ void detail::first_contact(const MovingLink& A, const MovingLink& B, const TimeW
   ask_first_contact(A, B, window, workspace.queries, workspace.places, options, result);
 }
 
+void detail::first_contact_early(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
+                                 const ShapeHull& hull_B, const TimeWindow& window, double early,
+                                 LinkWorkspace& workspace, const FirstContactOptions& options,
+                                 FirstContactResult& result) {
+  ask_in_order(A, B, window, workspace.places, [&](const ShapePair& pair) {
+    const bool swapped = &pair.A != &A.shape;
+    const double begin =
+        hulls_apart_until(swapped ? hull_B : hull_A, swapped ? hull_A : hull_B, pair.motion, window,
+                          options.margin + A.shape.radius() + B.shape.radius());
+    if (window.begin < window.end && begin >= window.end) {
+      result.verdict = Verdict::free;
+      result.reason = UndecidedReason::none;
+      result.t = window.end;
+      return;
+    }
+    first_contact_early(pair, {begin, window.end}, early, workspace.queries, options, result);
+  });
+}
+
 void detail::first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                                 const Hold& hold, LinkWorkspace& workspace,
                                 const FirstContactOptions& options, FirstContactResult& result) {

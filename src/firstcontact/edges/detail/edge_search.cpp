@@ -9,8 +9,12 @@
 
 namespace firstcontact::detail {
 
-EdgeSearch::EdgeSearch(RobotScene scene, const RobotCheckOptions& options)
-    : scene_(std::move(scene)), options_(options), timeline_(scene_), candidates_(timeline_) {
+EdgeSearch::EdgeSearch(RobotScene scene, const RobotCheckOptions& options, double early)
+    : scene_(std::move(scene)),
+      options_(options),
+      early_(early),
+      timeline_(scene_),
+      candidates_(timeline_) {
   options_.contacts = ContactState::none;
   options_.contact_band = 0.0;
 }
@@ -25,6 +29,7 @@ void EdgeSearch::set_motion(std::size_t robot, RobotMotion motion) {
 void EdgeSearch::follow_motions() {
   if (!is_followed_) {
     timeline_.follow_motions();
+    workspace_.places.forget();
     is_followed_ = true;
   }
 }
@@ -57,7 +62,8 @@ FirstContactResult EdgeSearch::ask(const GeometryCandidate& candidate, const Tim
     return result;
   }
   GeometrySearch search(timeline_, candidate, options_, workspace_);
-  return search.first_contact(window);
+  return window.begin < window.end && !candidate.hold ? search.first_contact_early(window, early_)
+                                                      : search.first_contact(window);
 }
 
 EdgeFound EdgeSearch::found_by(const GeometryCandidate& candidate,

@@ -35,14 +35,15 @@ struct EdgeFound {
 class EdgeSearch {
  public:
   /// @param options  tolerance and budget; all else is of no meaning
-  EdgeSearch(RobotScene scene, const RobotCheckOptions& options);
+  /// @param early    [-]  by so much time a first contact may be told too early
+  EdgeSearch(RobotScene scene, const RobotCheckOptions& options, double early = 0.0);
   EdgeSearch(const EdgeSearch&) = delete;
   EdgeSearch& operator=(const EdgeSearch&) = delete;
 
   /// Questions that follow are of this motion, and of those set before of other robots.
   void set_motion(std::size_t robot, RobotMotion motion);
 
-  /// The first contact.
+  /// The first contact. One of bodies alone is not told too early.
   [[nodiscard]] EdgeFound first_contact();
 
   /// Whether there is a contact; of several not the first one. Where geometries are in each other
@@ -74,6 +75,7 @@ class EdgeSearch {
 
   RobotScene scene_;
   RobotCheckOptions options_;
+  double early_;
   RobotTimeline timeline_;
   bool is_followed_ = true;  // Whether the timeline has the motions of the scene.
   CandidateSearch candidates_;

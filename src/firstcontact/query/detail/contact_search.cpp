@@ -49,7 +49,8 @@ class Search {
     start(state_.t_begin);
     while (!state_.queue.empty() || !is_over()) {
       if (state_.best.contact &&
-          state_.queue.top().priority() >= state_.best.t - state_.stop_window) {
+          state_.queue.top().priority() >=
+              state_.best.t - std::max(state_.stop_window, state_.limits.early)) {
         break;
       }
       if (const UndecidedReason reason = spent(); reason != UndecidedReason::none) {
@@ -148,6 +149,7 @@ class Search {
     PieceResult result = state_.best;
     if (state_.best.contact) {
       result.t = state_.proven_free();
+      result.t_upper = state_.limits.early > 0.0 ? state_.best.t : result.t;
       // Where the search began, a pair of boxes that is left is merely one that was not looked at.
       result.all_remembered = state_.all_remembered && result.t > state_.t_begin;
     } else {

@@ -16,7 +16,8 @@ namespace firstcontact::detail {
 /// The result of the search of one piece.
 struct PieceResult {
   double t = 0.0;          ///< Proven: no contact of the piece before t.
-  bool contact = false;    ///< At t some pair is within the band.
+  double t_upper = 0.0;    ///< With a contact: when that is; later than t only with `early`.
+  bool contact = false;    ///< At t_upper some pair is within the band.
   bool finished = false;   ///< Neither: the whole piece is proven free.
   bool impatient = false;  ///< Neither: the work that one search may take was spent.
   /// WorkspaceData::opened_pairs holds every pair of triangles within the band at t.
@@ -37,6 +38,7 @@ struct SearchLimits {
   /// [m]  What was asked: below `tolerance` where doubles cannot tell. Then, and where doubles come
   /// no further, corners that move on lines are asked again in double-double.
   double asked = 0.0;
+  double early = 0.0;  ///< [-]  By so much a contact may be later than what is proven free.
   const CornerLines* lines = nullptr;  ///< If there are any.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.

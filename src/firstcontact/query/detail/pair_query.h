@@ -58,4 +58,10 @@ void first_contact_held(const ShapePair& pair, const TimeWindow& window, const H
                         Workspace& workspace, const FirstContactOptions& options,
                         FirstContactResult& result);
 
+/// As first_contact() of a pair, but `t` may be earlier than the contact by `early` [-]; `t_upper`
+/// is when that is. Lists no contacts.
+void first_contact_early(const ShapePair& pair, const TimeWindow& window, double early,
+                         Workspace& workspace, const FirstContactOptions& options,
+                         FirstContactResult& result);
+
 }  // namespace firstcontact::detail

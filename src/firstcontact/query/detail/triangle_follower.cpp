@@ -84,6 +84,9 @@ void TriangleFollower::follow(TriangleEntry entry) {
       search_.unresolved = true;
       break;
     }
+    if (comes_soon(entry, t, tau)) {
+      return;
+    }
     // A tiny gap lasts while triangles turn; double-doubles know a direction for that.
     if (--steps_left == 0 && limits.lines != nullptr && decide_precisely(entry, t)) {
       return;
@@ -144,10 +147,42 @@ void TriangleFollower::follow_convex(TriangleEntry entry) {
       search_.unresolved = true;
       break;
     }
+    if (comes_soon(entry, t, tau)) {
+      return;
+    }
     t = next;
   } while (t <= due && !search_.watch.may_be_spent(search_.steps()));
   entry.key = t;
   search_.queue.push(entry);
+}
+
+bool TriangleFollower::comes_soon(TriangleEntry entry, double t, double tau) {
+  const SearchLimits& limits = search_.limits;
+  const double ahead = 0.5 * limits.early;  // The rest is left for the order of ties.
+  if (!(tau < ahead) || search_.best.contact) {
+    return false;
+  }
+  const double later = std::min(t + ahead, search_.horizon());
+  const RelativeState state = search_.pair.motion().state(later);
+  ++search_.work.steps;
+  if (distance_at(entry, state) + search_.pair.gap_error(state) >
+      limits.threshold + 0.5 * limits.tolerance) {
+    return false;
+  }
+  search_.found(entry, later, 0.0);
+  entry.key = t;  // Until then it is proven.
+  search_.queue.push(entry);
+  return true;
+}
+
+double TriangleFollower::distance_at(const TriangleEntry& entry, const RelativeState& state) const {
+  if (search_.pair.is_convex()) {
+    const ConvexLeaf leaf(search_.pair, state, entry.a, entry.b);
+    ConvexGuess guess = guess_of(leaf);
+    return leaf.closest({.close = search_.limits.threshold}, guess).distance;
+  }
+  const TrianglePair triangles = search_.pair.place(state, entry.a, entry.b);
+  return triangle_distance(triangles.A, triangles.B).distance;
 }
 
 double TriangleFollower::convex_step(const ConvexLeaf& leaf, const Eigen::Vector3d& n) const {

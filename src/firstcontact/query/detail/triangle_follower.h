@@ -40,6 +40,15 @@ class TriangleFollower {
   /// The certified step of a convex set and a triangle along the direction n.
   [[nodiscard]] double convex_step(const ConvexLeaf& leaf, const Eigen::Vector3d& n) const;
 
+  /// Whether a pair that comes near at t is seen in contact soon after, so that SearchLimits::early
+  /// spares the steps between. Then its contact is found, and it is queued as proven until t.
+  ///
+  /// @param tau  [-]  its certified step
+  [[nodiscard]] bool comes_soon(TriangleEntry entry, double t, double tau);
+
+  /// [m]  No less than the distance of a pair at a state.
+  [[nodiscard]] double distance_at(const TriangleEntry& entry, const RelativeState& state) const;
+
   /// Follows a pair of triangles to its contact or to the end, from t on, in double-double. False
   /// where that does not decide either.
   [[nodiscard]] bool decide_precisely(const TriangleEntry& entry, double t);

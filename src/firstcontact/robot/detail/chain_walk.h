@@ -179,6 +179,13 @@ class ChainMemory {
   /// Valid until the next call.
   [[nodiscard]] Walked walk(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
+  /// Drops what is known of all joints, which will not be asked about again.
+  void forget() {
+    for (Instant& instant : instants_) {
+      instant.t = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
   /// The bounds of the joint that leads to a node of the walk.
   [[nodiscard]] static const JointBounds& bounds(const Node& node, const JointPath& joint,
                                                  double t_from, double t_to);

@@ -75,6 +75,20 @@ FirstContactResult GeometrySearch::first_contact(const TimeWindow& window) {
   return result;
 }
 
+FirstContactResult GeometrySearch::first_contact_early(const TimeWindow& window, double early) {
+  const auto& [a, b] = candidate_.geometries;
+  const std::vector<Eigen::Vector3d>& corners_A = timeline_.geometries()[a].corners;
+  const std::vector<Eigen::Vector3d>& corners_B = timeline_.geometries()[b].corners;
+  if (corners_A.empty() || corners_B.empty()) {
+    return first_contact(window);
+  }
+  FirstContactResult result;
+  detail::first_contact_early({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
+                              hull_of(B_, A_, corners_B), window, early, workspace_,
+                              options_of_candidate(), result);
+  return result;
+}
+
 StartGap GeometrySearch::start_gap(WorkCount& work) {
   return detail::start_gap({A_, X_FA_}, {B_, X_FB_}, candidate_.window.begin, workspace_,
                            options_of_candidate(), work);

@@ -28,6 +28,10 @@ class GeometrySearch {
   /// options.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
 
+  /// The same without hold or contacts, where `t` may be earlier than the contact by `early` [-];
+  /// `t_upper` is when that is. Of the result only verdict, reason and times are of meaning.
+  [[nodiscard]] FirstContactResult first_contact_early(const TimeWindow& window, double early);
+
   /// The same with others, and without contacts.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
                                                  double tolerance);

@@ -5,6 +5,7 @@
 
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot_check/detail/hull_approach.h>
 #include <firstcontact/robot_check/link_contact.h>
 
 namespace firstcontact::detail {
@@ -18,6 +19,13 @@ struct LinkWorkspace {
 void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                    LinkWorkspace& workspace, const FirstContactOptions& options,
                    FirstContactResult& result);
+
+/// As detail::first_contact_early of a pair of shapes, from where their hulls come near. Of the
+/// result only verdict, reason and times are of meaning.
+void first_contact_early(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
+                         const ShapeHull& hull_B, const TimeWindow& window, double early,
+                         LinkWorkspace& workspace, const FirstContactOptions& options,
+                         FirstContactResult& result);
 
 /// As detail::first_contact_held of a pair of shapes.
 void first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,

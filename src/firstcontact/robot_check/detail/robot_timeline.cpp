@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <firstcontact/geometry/hierarchy.h>
-
 #include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/robot_check/detail/hull_approach.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -93,6 +93,7 @@ void RobotTimeline::add_geometries(std::size_t member) {
         ball_around(geometries[g].shape),
         box_around(geometries[g].shape),
         (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
+    geometry.corners = hull_corners(geometries[g].shape);
     if (link) {
       seats_.push_back({seat_on_link(*link, scene_.paths(member)[g], 1.0)});
     } else {
@@ -100,7 +101,7 @@ void RobotTimeline::add_geometries(std::size_t member) {
       const std::vector<Seat>& seats = seats_.back();
       geometry.rests = seats.size() == 1 && !seats[0].link && is_at_rest(seats[0].pieces);
     }
-    geometries_.push_back(geometry);
+    geometries_.push_back(std::move(geometry));
   }
 }
 

@@ -28,6 +28,7 @@ struct BoundedGeometry {
   RoundedBox box;      ///< So too.
   double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
   bool rests = false;  ///< Its frame S, and so its bounds, over the whole step.
+  std::vector<Eigen::Vector3d> corners = {};  ///< As hull_corners().
 };
 
 /// Two members that are tested, but for the times of `pauses`.
