@@ -382,6 +382,23 @@ TEST(NarrowPassages, CostLittleWhereTheWayIsWide) {
   EXPECT_LE(static_cast<double>(with), 1.25 * static_cast<double>(without));
 }
 
+// Where trees grow freely, no slide and no push comes before some hundreds of edges.
+TEST(NarrowPassages, BeginWithoutContacts) {
+  const NarrowPassage passage = narrow_passage("links", 0.1);
+  int early = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PlanResult result = plan_path(passage.scene, passage.start, {passage.goal},
+                                        {.contacts = ContactUse::both, .seed = seed});
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << seed;
+    if (result.statistics.edges_checked < 500) {
+      ++early;
+      EXPECT_EQ(result.statistics.contacts.slides, 0u) << seed;
+      EXPECT_EQ(result.statistics.contacts.nodes, 0u) << seed;
+    }
+  }
+  EXPECT_GT(early, 0);
+}
+
 TEST(NarrowPassages, AreForRrtConnectOnly) {
   const NarrowPassage passage = narrow_passage("window", 0.05);
   EXPECT_THROW((void)plan_path(passage.scene, passage.start, {passage.goal},

@@ -15,8 +15,11 @@ struct Ration {
   std::size_t until;
   double share;
 };
-constexpr std::array<Ration, 2> kRations = {{{100, 0.02}, {600, 0.5}}};
+constexpr std::array<Ration, 2> kRations = {{{500, 0.02}, {1500, 0.3}}};
 constexpr double kLastShare = 4.0;
+
+/// Edges that the ration has to leave before a way in contact begins, which takes dozens.
+constexpr double kFewEdges = 10.0;
 
 }  // namespace
 
@@ -52,7 +55,7 @@ bool ContactGrowth::is_due() const {
     return steering_.has_value();
   }
   const std::size_t others = work_.counts().edges_checked - spent_ - leaving_;
-  double allowed = 0.0;
+  double allowed = -kFewEdges;
   std::size_t from = 0;
   for (const Ration& ration : kRations) {
     allowed += ration.share * static_cast<double>(std::min(others, ration.until) - from);
