@@ -62,7 +62,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// @param names  of coordinates, as find_coordinate() takes them; at least one
   /// @param held   every joint that moves, at rest; its place does not matter for the names
   /// @throws std::invalid_argument  names the joint: unknown, fixed, mimicking another, named
-  ///         twice, or sliding without limits
+  ///         twice, or not held
   static ConfigurationSpace of_joints(RobotModel model, std::span<const std::string> names,
                                       std::map<std::string, JointMotion> held,
                                       Motion base = Motion::fixed());
