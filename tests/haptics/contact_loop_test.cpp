@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -163,6 +164,26 @@ TEST(ContactLoop, LetsAPegIntoItsHole) {
 }
 
 // On a slope of 20 degrees, held by a friction whose angle is 22 degrees.
+// A cube that is dragged across a corner of the floor turns about it: each round gains less.
+TEST(ContactLoop, LeavesSmallGainsToTheNextCycle) {
+  const auto rounds_of = [](double least_gain) {
+    HapticScene scene = cube_on_floor();
+    scene.tools[0].shape = make_ellipsoid({0.03, 0.02, 0.01}).as_triangles();
+    ContactLoop loop(scene, {.rounds = 60, .least_gain = least_gain});
+    const Pose target = at({0.02, 0.01, -0.03}, {0.4, 0.3, 0.0});
+    std::vector<std::size_t> rounds;
+    for (int k = 0; k < 40; ++k) {
+      rounds.push_back(loop.advance(std::array{target}, kMillisecond, k).rounds);
+    }
+    return std::pair(rounds, loop.pose(0).position);
+  };
+  const auto [all, there] = rounds_of(0.0);
+  const auto [few, near] = rounds_of(1e-3);
+  EXPECT_GT(all[0], few[0] + 3);
+  EXPECT_EQ(few.back(), 1U);  // The later cycles made the rest.
+  EXPECT_LT((near - there).norm(), 1e-6);
+}
+
 TEST(ContactLoop, DoesNotCreepWhereFrictionHolds) {
   const double slope = 20.0 * std::numbers::pi / 180.0;
   HapticScene scene = cube_on_floor(std::tan(22.0 * std::numbers::pi / 180.0));

@@ -37,6 +37,8 @@ ContactLoop::Implementation::Implementation(HapticScene scene, const ContactLoop
     : scene_(std::move(scene)), options_(options) {
   detail::check_haptic_scene(scene_);
   detail::require_haptic(options.rounds > 0, "ContactLoopOptions::rounds must be > 0");
+  detail::require_haptic(options.least_gain >= 0.0 && options.least_gain < 1.0,
+                         "ContactLoopOptions::least_gain must be in [0, 1)");
   detail::require_haptic(options.angle > 0.0 && options.angle < 1.0,
                          "ContactLoopOptions::angle must be in (0, 1)");
   detail::require_haptic(options.most_contacts > 0 && options.most_contacts <= kMostHapticContacts,

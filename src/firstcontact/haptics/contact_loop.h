@@ -54,7 +54,7 @@ struct HapticCycle {
   /// [m]  Proven: no tool came closer to anything in this cycle. Infinite where nothing is near.
   double clearance = 0.0;
   std::size_t rounds = 0;     ///< Projections.
-  bool is_converged = false;  ///< Nothing more was to be gained.
+  bool is_converged = false;  ///< No more was to be gained than ContactLoopOptions::least_gain.
   bool is_late = false;       ///< The deadline ended it.
   double residual = 0.0;      ///< [m]  The greatest of the projections.
   std::size_t contacts = 0;   ///< At its end.
@@ -64,7 +64,10 @@ struct HapticCycle {
 
 struct ContactLoopOptions {
   std::size_t rounds = 10;  ///< > 0  Projections in a cycle, at most.
-  double angle = 0.0175;    ///< [rad]  > 0  Contacts that allow the same within it are left out.
+  /// [-]  >= 0  A cycle ends before a further round that gains less than this part of the springs'
+  /// stretch: it would change forces by about as much. The next cycle begins with it.
+  double least_gain = 1e-3;
+  double angle = 0.0175;  ///< [rad]  > 0  Contacts that allow the same within it are left out.
   std::size_t most_contacts = 32;  ///< 1 to kMostHapticContacts: that a contact set lists.
 };
 

@@ -10,44 +10,10 @@
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_listing.h>
 #include <firstcontact/haptics/detail/contact_loop_implementation.h>
-#include <firstcontact/haptics/detail/contact_reduction.h>
 #include <firstcontact/haptics/detail/haptic_scene_check.h>
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {
-namespace detail {
-namespace {
-
-/// [m]  How far the points of a body get in a displacement, at most, about.
-double extent_of(const Displacement& way, double reach) {
-  return way.translation.norm() + way.rotation_vector.norm() * reach;
-}
-
-Eigen::Vector3d moved_by(const Displacement& way, const Eigen::Vector3d& arm) {
-  return way.translation + way.rotation_vector.cross(arm);
-}
-
-}  // namespace
-}  // namespace detail
-
-detail::ToolDisplacements ContactLoop::Implementation::wanted(std::span<const Pose> targets) const {
-  detail::ToolDisplacements ways;
-  for (std::size_t k = 0; k < tools(); ++k) {
-    const Eigen::Quaterniond R_WB = targets[k].rotation.normalized();
-    ways[k].translation = targets[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
-    ways[k].rotation_vector = detail::turn_between(poses_[k].rotation, R_WB);
-  }
-  return ways;
-}
-
-double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& ways) const {
-  double gain = 0.0;
-  for (std::size_t k = 0; k < tools(); ++k) {
-    gain = std::max(gain, detail::extent_of(ways[k], members_[k].reach));
-  }
-  return gain;
-}
-
 /// [s]  The part of a slot in which all courses are straight, to half the contact distance.
 double ContactLoop::Implementation::straight_slot(double slot) const {
   const double begin = time_ + now_;
@@ -80,92 +46,6 @@ void ContactLoop::Implementation::set_courses(double slot) {
           detail::rotation_along(course, from, to, poses_[m].rotation.normalized());
     }
   }
-}
-
-detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
-  std::vector<std::size_t> chosen;
-  if (touches_.size() > detail::kMostProjected) {
-    std::vector<HapticContact> contacts;
-    for (const HapticTouch& touch : touches_) {
-      contacts.push_back(touch.contact);
-    }
-    chosen =
-        detail::reduce_contacts(contacts, frames_, tools(), options_.angle, detail::kMostProjected)
-            .kept;
-  } else {
-    for (std::size_t k = 0; k < touches_.size(); ++k) {
-      chosen.push_back(k);
-    }
-  }
-  planned_.clear();
-  for (const std::size_t k : chosen) {
-    const HapticContact& contact = touches_[k].contact;
-    detail::PlannedTouch touch{.contact = &contact,
-                               .way = contact.gap - detail::kRestGap * distance_};
-    if (contact.body >= 0) {
-      const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
-      touch.surface = detail::moved_by(courses_[member], contact.point - poses_[member].position);
-    }
-    planned_.push_back(touch);
-  }
-  detail::GodObjectPlan plan =
-      detail::plan_god_objects(wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_);
-  for (Displacement& way : plan.displacements) {
-    if (!way.translation.allFinite() || !way.rotation_vector.allFinite()) {
-      way = {};
-    }
-  }
-  cycle_.residual = std::max(cycle_.residual, plan.residual);
-  return plan;
-}
-
-/// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
-/// do not hold.
-detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
-    detail::ToolDisplacements wanted) {
-  detail::GodObjectPlan found = plan(wanted);
-  double part = 1.0;
-  for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
-    // A point at the reach sinks by half of reach times the square of the angle.
-    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
-    part = std::min(part, most / found.displacements[k].rotation_vector.norm());
-  }
-  if (!(part < 1.0)) {
-    return found;
-  }
-  if (are_courses_moving_) {
-    for (Displacement& way : wanted) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
-    found = plan(wanted);
-  } else {
-    for (Displacement& way : found.displacements) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
-  }
-  found.is_shortened = true;
-  return found;
-}
-
-/// Plans the way; or where touches are very near only the way out of them, if there is one: what is
-/// pressed on while it has no room left sinks from round to round.
-detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
-    const detail::ToolDisplacements& ways) {
-  const bool is_near = std::ranges::any_of(touches_, [&](const HapticTouch& touch) {
-    return touch.contact.gap < detail::kPartBelow * distance_;
-  });
-  is_parting_ = false;
-  if (is_near && may_part_ && !are_courses_moving_) {
-    detail::GodObjectPlan parting = plan({});
-    if (gain_of(parting.displacements) > detail::kLeastParting * distance_) {
-      is_parting_ = true;
-      parting.is_shortened = true;
-      return parting;
-    }
-  }
-  return plan_within_turn(ways);
 }
 
 void ContactLoop::Implementation::append_piece(std::size_t member, const Displacement& way,
@@ -278,8 +158,7 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
           for (const HapticPiece& piece : motion.pieces) {
             way.rotation_vector += piece.rotation_vector;
           }
-          contact.surface_velocity =
-              detail::moved_by(way, contact.point - poses_[member].position) / dt;
+          contact.surface_velocity = way.at(contact.point - poses_[member].position) / dt;
         }
       }
     }
@@ -319,9 +198,11 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * part * straight;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
-    detail::GodObjectPlan plan = plan_or_part(ways);
+    detail::GodObjectPlan plan = plan_round(ways);
     ++cycle_.rounds;
-    const bool gains = gain_of(plan.displacements) > least_gain;
+    const bool is_further = round > 0 && !is_parting_;
+    const double enough = is_further ? options_.least_gain * gain_of(ways) : 0.0;
+    const bool gains = gain_of(plan.displacements) > std::max(least_gain, enough);
     if (!gains && !are_courses_moving_) {
       cycle_.is_converged = true;
       break;

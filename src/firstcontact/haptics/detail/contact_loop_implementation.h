@@ -15,6 +15,7 @@
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
+#include <firstcontact/haptics/detail/last_round.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
 #include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/motion/motion.h>
@@ -23,7 +24,7 @@
 
 namespace firstcontact {
 
-/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp.
+/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp, its plans in contact_plan.cpp.
 class ContactLoop::Implementation {
  public:
   Implementation(HapticScene scene, const ContactLoopOptions& options);
@@ -66,9 +67,12 @@ class ContactLoop::Implementation {
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
   [[nodiscard]] double straight_slot(double slot) const;
   void set_courses(double slot);
+  [[nodiscard]] std::vector<std::size_t> projected_touches() const;
+  [[nodiscard]] detail::PlannedTouch planned(const HapticContact& contact) const;
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
   [[nodiscard]] detail::GodObjectPlan plan_or_part(const detail::ToolDisplacements& ways);
+  [[nodiscard]] detail::GodObjectPlan plan_round(const detail::ToolDisplacements& ways);
   double execute(const detail::GodObjectPlan& plan, double slot, double dt,
                  const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);
@@ -90,6 +94,8 @@ class ContactLoop::Implementation {
   bool is_found_ = false;  // The contacts are those of the poses.
   std::vector<HapticTouch> touches_;
   std::vector<detail::PlannedTouch> planned_;
+  detail::LastRound last_round_;
+  std::vector<HapticTouch> left_;  // Of the last round, where the plan turned back.
   detail::ToolFrames frames_;
   bool may_part_ = true;         // No plan to part was in vain in this cycle.
   bool is_parting_ = false;      // The plan only parts.

@@ -132,8 +132,7 @@ bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
                  const std::vector<PlannedTouch>& touches, double slack) {
   const auto moved = [&](std::int32_t tool, const Vector3d& point) -> Vector3d {
     const auto k = static_cast<std::size_t>(tool);
-    const Displacement& way = plan.displacements[k];
-    return way.translation + way.rotation_vector.cross(point - frames.p_WC[k]);
+    return plan.displacements[k].at(point - frames.p_WC[k]);
   };
   return std::ranges::all_of(touches, [&](const PlannedTouch& touch) {
     const HapticContact& contact = *touch.contact;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/contact_set.h>
@@ -18,6 +19,11 @@ namespace firstcontact::detail {
 struct Displacement {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]
+
+  /// [m]  The way of the point at an arm [m] from the pivot, to first order.
+  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& arm) const {
+    return translation + rotation_vector.cross(arm);
+  }
 };
 
 using ToolDisplacements = std::array<Displacement, kMostTools>;

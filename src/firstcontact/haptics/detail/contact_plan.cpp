@@ -1,0 +1,147 @@
+// Where contacts let the tools go in a round: the plans of a contact loop.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/contact_loop_implementation.h>
+#include <firstcontact/haptics/detail/contact_reduction.h>
+
+namespace firstcontact {
+
+detail::ToolDisplacements ContactLoop::Implementation::wanted(std::span<const Pose> targets) const {
+  detail::ToolDisplacements ways;
+  for (std::size_t k = 0; k < tools(); ++k) {
+    const Eigen::Quaterniond R_WB = targets[k].rotation.normalized();
+    ways[k].translation = targets[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
+    ways[k].rotation_vector = detail::turn_between(poses_[k].rotation, R_WB);
+  }
+  return ways;
+}
+
+double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& ways) const {
+  double gain = 0.0;
+  for (std::size_t k = 0; k < tools(); ++k) {
+    gain = std::max(
+        gain, ways[k].translation.norm() + ways[k].rotation_vector.norm() * members_[k].reach);
+  }
+  return gain;
+}
+
+/// Of the touches those that a projection takes.
+std::vector<std::size_t> ContactLoop::Implementation::projected_touches() const {
+  if (touches_.size() > detail::kMostProjected) {
+    std::vector<HapticContact> contacts;
+    for (const HapticTouch& touch : touches_) {
+      contacts.push_back(touch.contact);
+    }
+    return detail::reduce_contacts(contacts, frames_, tools(), options_.angle,
+                                   detail::kMostProjected)
+        .kept;
+  }
+  std::vector<std::size_t> all(touches_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+detail::PlannedTouch ContactLoop::Implementation::planned(const HapticContact& contact) const {
+  detail::PlannedTouch touch{.contact = &contact,
+                             .way = contact.gap - detail::kRestGap * distance_};
+  if (contact.body >= 0) {
+    const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
+    touch.surface = courses_[member].at(contact.point - poses_[member].position);
+  }
+  return touch;
+}
+
+detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
+  planned_.clear();
+  for (const std::size_t k : projected_touches()) {
+    planned_.push_back(planned(touches_[k].contact));
+  }
+  for (const HapticTouch& touch : left_) {
+    planned_.push_back(planned(touch.contact));
+  }
+  detail::GodObjectPlan plan =
+      detail::plan_god_objects(wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_);
+  for (Displacement& way : plan.displacements) {
+    if (!way.translation.allFinite() || !way.rotation_vector.allFinite()) {
+      way = {};
+    }
+  }
+  cycle_.residual = std::max(cycle_.residual, plan.residual);
+  return plan;
+}
+
+/// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
+/// do not hold.
+detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
+    detail::ToolDisplacements wanted) {
+  detail::GodObjectPlan found = plan(wanted);
+  double part = 1.0;
+  for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
+    // A point at the reach sinks by half of reach times the square of the angle.
+    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
+    part = std::min(part, most / found.displacements[k].rotation_vector.norm());
+  }
+  if (!(part < 1.0)) {
+    return found;
+  }
+  if (are_courses_moving_) {
+    for (Displacement& way : wanted) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+    found = plan(wanted);
+  } else {
+    for (Displacement& way : found.displacements) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+  }
+  found.is_shortened = true;
+  return found;
+}
+
+/// Plans the way; or where touches are very near only the way out of them, if there is one: what is
+/// pressed on while it has no room left sinks from round to round.
+detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
+    const detail::ToolDisplacements& ways) {
+  const bool is_near = std::ranges::any_of(touches_, [&](const HapticTouch& touch) {
+    return touch.contact.gap < detail::kPartBelow * distance_;
+  });
+  is_parting_ = false;
+  if (is_near && may_part_ && !are_courses_moving_) {
+    detail::GodObjectPlan parting = plan({});
+    if (gain_of(parting.displacements) > detail::kLeastParting * distance_) {
+      is_parting_ = true;
+      parting.is_shortened = true;
+      return parting;
+    }
+  }
+  return plan_within_turn(ways);
+}
+
+/// Plans a round. One that turns back is planned with the contacts of the round before as well.
+detail::GodObjectPlan ContactLoop::Implementation::plan_round(
+    const detail::ToolDisplacements& ways) {
+  left_.clear();
+  detail::GodObjectPlan found = plan_or_part(ways);
+  if (is_parting_ || are_courses_moving_ || !found.is_pressed) {
+    last_round_.forget();
+    return found;
+  }
+  if (last_round_.is_left_by(found.displacements, frames_, tools())) {
+    left_ = last_round_.touches_left(poses_, touches_);
+    found = plan_within_turn(ways);
+  }
+  last_round_.keep(poses_, touches_, found.displacements);
+  return found;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,46 @@
+/// @file
+/// What the round before left behind, for one that turns back.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/detail/contact_coordinates.h>
+#include <firstcontact/haptics/detail/god_object_plan.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact::detail {
+
+/// Remembers a round: where its members were, what touched there, and where it led.
+///
+/// A plan knows the contacts where it begins. In a groove it slides along one flank and on to the
+/// other. There the next plan knows that one only, and slides back: the two rounds repeat for ever.
+/// A plan that leads back is hence made once more, with the contacts of both rounds. It ends in the
+/// groove.
+class LastRound {
+ public:
+  void forget() { poses_.clear(); }
+  void keep(const std::vector<Pose>& poses, const std::vector<HapticTouch>& touches,
+            const ToolDisplacements& way);
+
+  /// Whether a way leads back, in the metric of the springs. Not where nothing is remembered.
+  [[nodiscard]] bool is_left_by(const ToolDisplacements& way, const ToolFrames& frames,
+                                std::size_t tools) const;
+
+  /// The contacts of that round that touch no more: the planes that they were, and their points as
+  /// the members carried them along.
+  ///
+  /// @param poses     of all members, now
+  /// @param touching  now
+  [[nodiscard]] std::vector<HapticTouch> touches_left(
+      const std::vector<Pose>& poses, const std::vector<HapticTouch>& touching) const;
+
+ private:
+  std::vector<Pose> poses_;  // Empty where nothing is remembered.
+  std::vector<HapticTouch> touches_;
+  ToolDisplacements way_ = {};
+};
+
+}  // namespace firstcontact::detail
