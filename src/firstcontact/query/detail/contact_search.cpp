@@ -42,7 +42,7 @@ class Search {
         front_width_(kFirstWay * (limits.threshold + limits.tolerance) /
                      std::max(pair.speed_bound(), 1e-300)),
         steps_before_(work.node_groups + work.steps),
-        patience_(std::min(limits.patience, kLongSearch)) {}
+        patience_(may_slide() ? std::min(limits.patience, kLongSearch) : limits.patience) {}
 
   PieceResult run() {
     state_.workspace.opened_pairs.clear();
@@ -118,16 +118,19 @@ class Search {
     state_.box_threshold = state_.limits.threshold;
     state_.instant.forget_boxes();
     const double t = state_.proven_free();
-    if (!windows_.screw_sliding_on(t)) {
+    if (!may_slide() || !windows_.screw_sliding_on(t)) {
       start(t);
     }
   }
+
+  /// A pair with a front does not slide: it would have none (find_close_by_front()).
+  [[nodiscard]] bool may_slide() const { return state_.limits.front == nullptr; }
 
   /// Whether nothing is left, in windows after this one neither.
   [[nodiscard]] bool is_over() {
     while (state_.queue.empty() && !state_.best.contact && state_.t_end < state_.t_last) {
       const double t = state_.t_end;
-      if (front_ != nullptr || !windows_.screw_sliding_on(t)) {
+      if (!may_slide() || !windows_.screw_sliding_on(t)) {
         start(t);
       }
     }
