@@ -1,6 +1,7 @@
 // Questions that begin at a front of box pairs, against the same from the roots.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -208,6 +209,72 @@ TEST(BoxFront, ProvesMotionsOfAnyLength) {
   }
   EXPECT_GT(free, 50U);
   EXPECT_GT(met, 50U);
+}
+
+/// A motion of the surroundings from a pose: a door on its hinge, a screw, or a course with bends.
+Motion surroundings_from(const Pose& start, test::Random& random, double size) {
+  const Vector3d hinge = start.position + random.vector(0.5, 3.0);
+  const double angle = random.uniform(-size, size);
+  if (random.chance(0.6)) {
+    const double along = random.chance(0.5) ? 0.0 : random.uniform(-size, size);
+    return Motion::screw(start, hinge, random.direction(), angle, along);
+  }
+  const auto moved = [&](const Pose& from) {
+    return Pose{from.position + random.vector(0.0, size),
+                Eigen::AngleAxisd(0.5 * size, random.direction()) * from.rotation};
+  };
+  const Pose bend = moved(start);
+  return Motion::waypoints(std::array{0.0, random.uniform(0.2, 0.8), 1.0},
+                           std::array{start, bend, moved(bend)});
+}
+
+TEST(BoxFront, ProvesWhereSurroundingsTurnOnHingesAndScrews) {
+  std::size_t free = 0;
+  std::size_t met = 0;
+  const FirstContactOptions options{
+      .margin = 1e-3, .tolerance = 1e-4, .contacts = ContactState::none};
+  const Shape A = rough_ball(15);
+  const Shape B = rough_ball(16);
+  Walk walk(17, Vector3d(0.3, -0.2, 0.1));
+  BoxFront front;
+  for (int k = 0; k < 300; ++k, walk.step()) {
+    (void)from_front(A, walk.A(), B, walk.B(), 2e-3, front);
+    test::Random& random = walk.random();
+    const double size = random.logarithmic(1e-4, 1.0);
+    const Motion motion_A = surroundings_from(walk.A(), random, size);
+    const Motion motion_B = random.chance(0.5)
+                                ? Motion::fixed(walk.B())
+                                : Motion::constant_velocity(walk.B(), random.vector(0.0, size),
+                                                            random.vector(0.0, size));
+    Workspace workspace;
+    FirstContactResult result;
+    first_contact_by_front(front, {A, motion_A}, {B, motion_B}, workspace, options, result);
+    ASSERT_NE(result.verdict, Verdict::undecided);
+    expect_true(result, {A, motion_A}, {B, motion_B}, options, 1e-12);
+    (result.verdict == Verdict::free ? free : met) += 1;
+  }
+  EXPECT_GT(free, 50U);
+  EXPECT_GT(met, 50U);
+}
+
+/// A front that is refined again and again takes no more memory than a few new ones.
+TEST(BoxFront, StaysSmallHoweverLongItIsKept) {
+  constexpr double kBand = 0.03;
+  const Shape A = rough_ball(18);
+  const Shape B = rough_ball(19);
+  Walk walk(20, Vector3d::Zero());
+  BoxFront kept;
+  std::size_t largest = 0;
+  std::size_t largest_new = 0;
+  for (int k = 0; k < 3000; ++k, walk.step()) {
+    (void)from_front(A, walk.A(), B, walk.B(), kBand, kept);
+    BoxFront begun;
+    (void)from_front(A, walk.A(), B, walk.B(), kBand, begun);
+    largest = std::max(largest, kept.size());
+    largest_new = std::max(largest_new, begun.size());
+  }
+  EXPECT_GT(largest_new, 20U);
+  EXPECT_LE(largest, 3 * largest_new);
 }
 
 /// The front's bounds may be used up to the last bit, and are no wider than the motion.
