@@ -39,7 +39,7 @@ inline constexpr double kFloorOfGap = 0.01;
 inline constexpr double kSlackOfFloor = 1e-6;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
-inline constexpr double kSinkOfTurn = 0.3;
+inline constexpr double kSinkOfTurn = 1.2;
 /// [-]  A round ends before a course has bent away so far from a straight line.
 inline constexpr double kBendOfCourse = 0.5;
 /// [-]  Where bodies with courses bring a tool so much nearer than it may come, there is no room.

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// [groups]  Where a new front opens so many, surfaces that slide on a screw are found by that.
-constexpr std::uint64_t kManyOpened = 5000;
+constexpr std::uint64_t kManyOpened = 10'000;
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 /// [pairs of triangles]  More than these are very many.
 constexpr std::size_t kVeryMany = 1000;
