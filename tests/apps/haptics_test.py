@@ -7,6 +7,7 @@ PLUGIN is the example of a plug-in, as a shared library.
 
 import csv
 import json
+import os
 import pathlib
 import re
 import signal
@@ -66,6 +67,25 @@ class Haptics(tool_test.ToolTest):
             self.assertEqual(result.returncode, 0, result)
         for end in (".jsonl", ".csv"):
             self.assertEqual((self.folder / f"a{end}").read_bytes(), (self.folder / f"b{end}").read_bytes())
+
+    def peak_memory(self, *arguments):
+        """[bytes]  Of a session, however its allocator keeps what is freed."""
+        process = self.start("haptics", "scene.json", "--device", "simulated", "--force", *arguments,
+                             env={**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=1"})
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0, process.stderr.read())
+        return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+    def test_takes_no_more_memory_for_a_longer_session(self):
+        self.file("scene.json", scene())
+        files = ("-o", "run.jsonl", "--ticks", "ticks.csv", "--cycles", "cycles.csv", "--plot", "plot.svg")
+        for clock, short, long in (((), 1, 16), (("--wall",), 0.5, 3)):
+            least = self.peak_memory("--duration", str(short), *clock, *files)
+            more = self.peak_memory("--duration", str(long), *clock, *files)
+            # 15 s are 15,000 cycles and 60,000 ticks: 100 bytes of each tick would be 6 MB.
+            self.assertLess(more, least + 4e6, clock)
+            self.assertGreater((self.folder / "ticks.csv").stat().st_size, 2e6)
 
     def test_runs_on_the_wall(self):
         self.file("scene.json", scene())
