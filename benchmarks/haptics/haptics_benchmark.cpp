@@ -186,9 +186,10 @@ int run(const std::string& file, const Options& options) {
       targets[d] = tick.tools[d].target;
     }
     std::optional<Eigen::Vector3d> exact;
-    if (k % 32 == 0 && k > 1000) {
+    if (k % 32 == 0) {  // From the first tick on: the ramp of its force has to be over, too.
       exact = reference.force(contacts, targets, states, now);
     }
+    exact = k > 1000 ? exact : std::nullopt;
     if (exact) {
       felt.add(tick.tools[0].force_W, *exact);
     }
@@ -202,9 +203,11 @@ int run(const std::string& file, const Options& options) {
       }
       found.add(static_cast<std::int64_t>(cycle.contacts));
       rounds += cycle.contacts > 0 ? cycle.rounds : 0;
-      if (exact) {
-        at_once.add(forces_at_once.tick(now, contacts.contact_set(), states).tools[0].force_W,
-                    *exact);
+      if (k % 32 == 0) {
+        const ForceTick& own = forces_at_once.tick(now, contacts.contact_set(), states);
+        if (exact) {
+          at_once.add(own.tools[0].force_W, *exact);
+        }
       }
       unfinished += cycle.is_converged ? 0 : 1;
       clearance = std::min(clearance, cycle.clearance);
