@@ -64,8 +64,8 @@ struct HapticCycle {
 
 struct ContactLoopOptions {
   std::size_t rounds = 10;  ///< > 0  Projections in a cycle, at most.
-  /// [-]  >= 0  A cycle ends before a further round that gains less than this part of the springs'
-  /// stretch: it would change forces by about as much. The next cycle begins with it.
+  /// [-]  >= 0  A further round is not made where it gains less than this part of the springs'
+  /// stretch. It would change forces by about as much; the next cycle begins with it.
   double least_gain = 2e-3;
   double angle = 0.0175;  ///< [rad]  > 0  Contacts that allow the same within it are left out.
   std::size_t most_contacts = 32;  ///< 1 to kMostHapticContacts: that a contact set lists.
