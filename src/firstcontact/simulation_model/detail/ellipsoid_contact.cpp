@@ -48,9 +48,8 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
              const Vector3d& outwards, double most_sag) {
   const Matrix3d R = body.pose.rotation.normalized().toRotationMatrix();
   if (body.ellipsoid != nullptr && body.ellipsoid->sag <= most_sag) {
-    const Matrix3d axes = R * body.ellipsoid->radii.asDiagonal();
     return {.core = {.point = body.pose.position + R * body.ellipsoid->centre_B,
-                     .squares = axes * axes.transpose()},
+                     .squares = body.ellipsoid->squares(R)},
             .round = {.ellipsoid = body.ellipsoid}};
   }
   Side side{.thickness = body.shape->radius(), .is_face = feature.type == FeatureType::face};
@@ -124,7 +123,7 @@ std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& b
   for (const Side& side : sides) {
     sag += side.round.is_curved() ? side.round.ellipsoid->sag : 0.0;
   }
-  double distance = found.n.dot(found.points[1] - found.points[0]);
+  const double distance = found.n.dot(found.points[1] - found.points[0]);
   const double rounding =
       kRoundingOfEllipsoids * (found.points[0].norm() + found.points[1].norm() + sag);
   if (!(distance >= contact.distance - sag - rounding && distance <= contact.distance + rounding)) {

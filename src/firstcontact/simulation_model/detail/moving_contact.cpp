@@ -45,10 +45,9 @@ SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const V
   const Shape& shape = side.body->shape;
   if (side.round.ellipsoid != nullptr) {
     const RoundEllipsoid& ellipsoid = *side.round.ellipsoid;
-    const Matrix3d axes = side.R_WB * ellipsoid.radii.asDiagonal();
     return {.centre = side.R_WB * (ellipsoid.centre_B - side.body->inertia.p_BC),
             .radius = 0.5 * distance,
-            .squares = axes * axes.transpose()};
+            .squares = ellipsoid.squares(side.R_WB)};
   }
   if (side.round.circle != nullptr) {
     const Vector3d axis = side.R_WB * side.round.circle->axis_B;

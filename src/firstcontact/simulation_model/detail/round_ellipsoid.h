@@ -23,6 +23,12 @@ struct RoundEllipsoid {
     return radii.cwiseProduct(stretched / stretched.norm());
   }
 
+  /// [m^2]  The matrix S of its support function, sqrt(n . S n), where the body is turned.
+  [[nodiscard]] Eigen::Matrix3d squares(const Eigen::Matrix3d& R_WB) const {
+    const Eigen::Matrix3d axes = R_WB * radii.asDiagonal();
+    return axes * axes.transpose();
+  }
+
   /// [m]  How that point changes with the direction, a unit vector: the second derivative of the
   /// support function. Its eigenvalues along the surface are the principal radii of curvature.
   [[nodiscard]] Eigen::Matrix3d bend(const Eigen::Vector3d& outwards_B) const {
