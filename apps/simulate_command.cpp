@@ -317,8 +317,8 @@ holds anything is replaced only with --force. The summary is of the whole run, a
 Held apart are pairs of which one is free. Scripted and resting bodies may pass through each other;
 the answer names such pairs.
 
-Exit status: 0 done; 2 bad input; 3 stopped early, or time was lost (the events of a step were
-spent). Ctrl-C ends after the step that is under way; again, at once.)";
+Exit status: 0 done; 2 bad input; 3 stopped early, a script had to wait, or time was lost. Ctrl-C
+ends after the step that is under way; again, at once.)";
 
 }  // namespace
 

@@ -27,24 +27,28 @@ using test::run;
 constexpr double kApart = 1e-4;   // [m]  Contact distance.
 constexpr std::size_t kLeft = 2;  // Of the press.
 
-/// A jaw whose face is 0.05 m inside of its place: 0.25 m from the middle at first, 0.05 m at 1 s,
+/// A jaw whose face is 0.05 m inside of its place: 0.25 m from the middle at first, nearest at 1 s,
 /// and where it was at 2 s.
-std::string jaw(const std::string& name, double side) {
+///
+/// @param nearest  [m]  of its place to the middle
+std::string jaw(const std::string& name, double side, double nearest) {
   const auto at = [&](double x) {
     return R"({"position": )" + numbers({side * x, 0.0, 0.21}) + "}";
   };
   return R"({"name": ")" + name + R"(", "shape": )" + box("[0.1, 0.4, 0.4]") +
          R"(, "motion": {"type": "waypoints", "times": [0, 1, 2], "poses": [)" + at(0.3) + ", " +
-         at(0.1) + ", " + at(0.3) + "]}}";
+         at(nearest) + ", " + at(0.3) + "]}}";
 }
 
-/// A cube of 0.2 m between jaws that close to 0.1 m, and a ball that falls far away.
-Simulator press(const std::string& more) {
+/// A cube of 0.2 m between jaws, and a ball that falls far away.
+///
+/// @param too_deep  [m]  so much farther than the cube allows a jaw would go
+Simulator press(const std::string& more, double too_deep = 0.05) {
   return test::simulator(
       kFloor + ", " +
           body("cube", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.1001]", R"(, "dynamics": {"mass": 8})") +
-          ", " + jaw("left", -1.0) + ", " + jaw("right", 1.0) + ", " +
-          body("ball", ball("0.1"), "[3, 0, 100]", R"(, "dynamics": {"mass": 1})"),
+          ", " + jaw("left", -1.0, 0.15 - too_deep) + ", " + jaw("right", 1.0, 0.15 - too_deep) +
+          ", " + body("ball", ball("0.1"), "[3, 0, 100]", R"(, "dynamics": {"mass": 1})"),
       R"("duration": 2, )" + test::settings(0.01, 0.5, kApart) + more);
 }
 
@@ -72,6 +76,48 @@ TEST(Waiting, APressWaitsAndOpensWhenItsScriptDoes) {
   const RunVerification proof = test::verify(s.header(), steps);
   EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
   EXPECT_NEAR(proof.greatest_behind, 0.5, 0.04);
+}
+
+// The script turns back within the step in which the jaws stop, or in one of the next.
+TEST(Waiting, APressThatClosesALittleTooFarOpens) {
+  for (const double too_deep : {1e-4, 3e-4, 1e-3, 2e-3, 5e-3}) {
+    Simulator s = press(R"(, "jams": "wait")", too_deep);
+    const std::vector<RunStep> steps = run(s, 200);
+    EXPECT_LE(moved(steps.back(), kLeft).X_WB.position.x(), -0.29) << too_deep;
+    EXPECT_LE(moved(steps.back(), kLeft).behind, 0.01) << too_deep;
+    const RunVerification proof = test::verify(s.header(), steps);
+    EXPECT_EQ(proof.verdict, RunVerdict::proven) << too_deep << ' ' << proof.problem;
+  }
+}
+
+// A ram presses a cube against a gate, which slides up after half a second. The ram waits, the gate
+// must not: it crushes nothing.
+TEST(Waiting, WhatMovesAlongAContactGoesOn) {
+  const auto scripted = [](const std::string& name, const std::string& size,
+                           const std::string& way) {
+    return R"({"name": ")" + name + R"(", "shape": )" + box(size) +
+           R"(, "motion": {"type": "waypoints", "times": [0, 0.5, 1], "poses": [)" + way + "]}}";
+  };
+  Simulator s = test::simulator(
+      kFloor + ", " +
+          body("cube", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.1001]", R"(, "dynamics": {"mass": 8})") +
+          ", " +
+          scripted("ram", "[0.1, 0.1, 0.1]",
+                   R"({"position": [-0.2, 0, 0.1]}, {"position": [-0.1, 0, 0.1]},
+                      {"position": [0, 0, 0.1]})") +
+          ", " +
+          scripted("gate", "[0.1, 0.4, 0.4]",
+                   R"({"position": [0.17, 0, 0.21]}, {"position": [0.17, 0, 0.21]},
+                      {"position": [0.17, 0, 1.21]})"),
+      R"("duration": 1.5, "jams": "wait", )" + test::settings(0.01, 0.2, kApart));
+  const std::vector<RunStep> steps = run(s, 150);
+  EXPECT_LE(moved(steps.back(), 3).behind, 0.02);
+  EXPECT_NEAR(moved(steps.back(), 3).X_WB.position.z(), 1.21, 1e-6);
+  EXPECT_GT(moved(steps[60], 2).behind, 0.05);
+  EXPECT_EQ(moved(steps.back(), 2).behind, 0.0);  // Its script has stood at its end for long.
+  EXPECT_NEAR(moved(steps.back(), 2).X_WB.position.x(), 0.0,
+              1e-6);  // The cube went out of its way.
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
 }
 
 TEST(Waiting, WithoutItTimeIsLostAtLittleWork) {

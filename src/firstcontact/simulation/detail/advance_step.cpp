@@ -51,7 +51,7 @@ class StepAdvance {
 
   std::optional<RunStep> run() {
     script_.return_to(state_.states, state_.time, state_.behind);
-    for (const double length : script_.parts(state_.time)) {
+    for (const double length : script_.parts(state_.time, state_.behind)) {
       for (Part part{.length = length}; part.length > 0.0; part = part.rest(length)) {
         if (!add(part)) {
           return std::nullopt;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include <firstcontact/simulation/detail/impact_search.h>
@@ -68,14 +69,18 @@ class Island {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
     for (const auto& [pair, manifold] : state_.manifolds) {
-      meet(pair);
+      for (const ManifoldPoint& touch : manifold.touches) {
+        meet(touch, scripts_);
+      }
     }
     if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
     }
     while (state_.reached < state_.start.h) {
-      if (track_.events > state_.model.events || stalls >= kMostStalls || is_jammed()) {
+      const std::size_t events =
+          tries_again_ ? std::min(kMostEventsAgain, state_.model.events) : state_.model.events;
+      if (track_.events > events || stalls >= kMostStalls || is_jammed()) {
         track_.crushing = crushing();
         break;
       }
@@ -178,29 +183,45 @@ class Island {
     return squeezed_ >= kMostSqueezed || crushed_ >= most;
   }
 
-  [[nodiscard]] bool is_moved_by_script(std::size_t body) const {
-    const Move& move = state_.start.scripted[body];
-    return move.translation.any() || move.rotation_vector.any();
+  /// Takes note of scripts that touch the island or get in the way of a plan, and of how fast they
+  /// close there by themselves.
+  void meet(const ManifoldPoint& touch, std::map<std::size_t, double>& scripts) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t body = touch.bodies[side];
+      const Move& move = state_.start.scripted[body];
+      if (!move.translation.any() && !move.rotation_vector.any()) {
+        continue;
+      }
+      tries_again_ = tries_again_ || state_.start.waited[body];
+      const Eigen::Vector3d arm =
+          touch.point - centre_of_mass(state_.model.bodies[body].inertia, state_.pose_of(body));
+      const Eigen::Vector3d way = move.translation + move.rotation_vector.cross(arm);
+      double& closing = scripts.try_emplace(body, 0.0).first->second;
+      closing = std::max(closing, (side == 0 ? 1.0 : -1.0) * touch.normal.dot(way));
+    }
   }
 
-  /// Takes note of scripts that are in the way of a plan, or press on the island already.
-  void meet(const BodyPair& pair) {
-    for (const std::size_t body : pair) {
-      if (is_moved_by_script(body)) {
-        scripts_.push_back(body);
-        tries_again_ = tries_again_ || state_.start.waited[body];
+  /// The scripted bodies that close fastest where plans were stopped last, or else on all that the
+  /// island met. What moves along a contact, or away, crushes nothing.
+  [[nodiscard]] std::vector<std::size_t> crushing() const {
+    for (const std::map<std::size_t, double>& scripts : {hit_last_, scripts_}) {
+      double fastest = 0.0;  // [m]
+      for (const auto& [body, closing] : scripts) {
+        fastest = std::max(fastest, closing);
+      }
+      std::vector<std::size_t> found;
+      for (const auto& [body, closing] : scripts) {
+        if (closing > 0.5 * fastest) {
+          found.push_back(body);
+        }
+      }
+      if (!found.empty()) {
+        return found;
       }
     }
-  }
-
-  /// The scripted bodies that were hit last, or else all that the island met.
-  [[nodiscard]] std::vector<std::size_t> crushing() const {
-    std::vector<std::size_t> hit;
-    for (const BodyPair& pair : hit_last_) {
-      std::ranges::copy_if(pair, std::back_inserter(hit),
-                           [&](std::size_t body) { return is_moved_by_script(body); });
-    }
-    return hit.empty() ? scripts_ : hit;
+    std::vector<std::size_t> all;
+    std::ranges::copy(std::views::keys(scripts_), std::back_inserter(all));
+    return all;
   }
 
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
@@ -238,16 +259,18 @@ class Island {
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
       const std::vector<Impact> hits = search.find(plan);
+      hit_last_.clear();
       for (const Impact& hit : hits) {
-        meet(hit.bodies);
+        for (const PredictedContact& ahead : hit.ahead) {
+          meet(ahead.touch, hit_last_);
+          meet(ahead.touch, scripts_);
+        }
       }
       if (hits.empty() || round == kRoundsOfSlight ||
           std::ranges::none_of(hits, &Impact::is_slight) || is_in_vain(planner, plan, hits)) {
         const bool is_crushed = !hits.empty() && !plan.keeps_contacts();
         double t = state_.robots.share_within_limits(plan.robots);
-        hit_last_.clear();
         for (const Impact& hit : hits) {
-          hit_last_.push_back(hit.bodies);
           t = std::min(t, hit.t);
         }
         if (!state_.ties.empty() && state_.taut <= kMostTautEvents) {
@@ -418,13 +441,14 @@ class Island {
       {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
-  double span_;                            // [s]  Longest of a plan, for now.
-  double planned_ = 0.0;                   // [s]  Of the plan.
-  std::size_t squeezed_ = 0;               // Impacts that left a pair squeezed.
-  std::size_t crushed_ = 0;                // Impacts of plans that contacts left no solution.
-  bool tries_again_ = false;               // A script that was met, after it had to wait.
-  std::vector<std::size_t> scripts_ = {};  // Bodies that were met and that scripts move.
-  std::vector<BodyPair> hit_last_ = {};
+  double span_;               // [s]  Longest of a plan, for now.
+  double planned_ = 0.0;      // [s]  Of the plan.
+  std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
+  std::size_t crushed_ = 0;   // Impacts of plans that contacts left no solution.
+  bool tries_again_ = false;  // A script that was met, after it had to wait.
+  /// [m]  Bodies that were met and that scripts move: how far they close by themselves.
+  std::map<std::size_t, double> scripts_ = {};
+  std::map<std::size_t, double> hit_last_ = {};  // Those that stopped the last plan.
 };
 
 }  // namespace

@@ -114,6 +114,8 @@ inline constexpr std::size_t kMostCrushed = 8;
 /// [impacts]  The same of a script that stood still in the step before, and tries to go on.
 /// Larger: what stays jammed takes longer.
 inline constexpr std::size_t kMostCrushedAgain = 1;
+/// [impacts]  Nor has such a script more of them in a step.
+inline constexpr std::size_t kMostEventsAgain = 20;
 /// [-]  A step is lost if it lasted less than this, by what is lost of it.
 inline constexpr double kLostOfStep = 1e-2;
 /// [-]  A stall, by the step.

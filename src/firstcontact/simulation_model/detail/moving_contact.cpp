@@ -97,7 +97,7 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
     }
   }
   if (now[0].squares || now[1].squares) {
-    return common_normal({NormalSide{{}, turned(now[0].squares, by[0]), along[0]},
+    return common_normal({NormalSide{Vector3d::Zero(), turned(now[0].squares, by[0]), along[0]},
                           NormalSide{apart, turned(now[1].squares, by[1]), along[1]}},
                          n);
   }

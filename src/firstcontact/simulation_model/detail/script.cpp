@@ -1,6 +1,7 @@
 #include <firstcontact/simulation_model/detail/script.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -21,8 +22,9 @@ constexpr double kLeastRest = 1e-9;
 /// [-]  Of the tolerance of scripts: what moves by less stands still.
 constexpr double kLeastWay = 1e-6;
 
-/// [steps]  Of a search for a time within a step.
-constexpr int kThirds = 60;
+/// [-]  Of a step, to find when a script came by; and steps from there.
+constexpr int kSamples = 32;
+constexpr int kThirds = 24;
 
 }  // namespace
 
@@ -43,13 +45,44 @@ Script::Script(const LinksAsBodies& linked, const SimulationModel& model)
 
 double Script::share(double time) const { return std::min(1.0, time / loaded_.scene.duration); }
 
-std::vector<double> Script::parts(double time) const {
+std::vector<double> Script::parts(double time, const std::vector<double>& behind) const {
+  std::map<double, std::vector<ScriptedMotion>> together;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    together[behind[bodies_[k]]].push_back(motions_[k]);
+  }
+  if (together.size() <= 1) {
+    return together.empty() ? std::vector{step_}
+                            : parts_of(together.begin()->second, time - together.begin()->first);
+  }
+  std::vector<double> ends;  // [s]  Since the step began.
+  for (const auto& [seconds, motions] : together) {
+    double end = 0.0;
+    for (const double length : parts_of(motions, time - seconds)) {
+      ends.push_back(end += length);
+    }
+  }
+  std::ranges::sort(ends);
+  std::vector<double> lengths;
+  double begin = 0.0;
+  for (const double end : ends) {
+    if (end - begin > kLeastRest * step_ && step_ - end > kLeastRest * step_) {
+      lengths.push_back(end - begin);
+      begin = end;
+    }
+  }
+  lengths.push_back(step_ - begin);
+  return lengths;
+}
+
+/// Of bodies with one clock.
+std::vector<double> Script::parts_of(const std::vector<ScriptedMotion>& motions,
+                                     double time) const {
   const double from = share(time);
   const double to = share(time + step_);
-  if (bodies_.empty() || !(from < to)) {
+  if (!(from < to)) {
     return {step_};
   }
-  const std::vector<double> ends = straight_parts(motions_, from, to, tolerance_);
+  const std::vector<double> ends = straight_parts(motions, from, to, tolerance_);
   if (ends.empty()) {
     throw std::invalid_argument("the scripted bodies move too wildly in the step at " +
                                 std::to_string(time) +
@@ -112,12 +145,16 @@ bool Script::wait(const std::vector<std::size_t>& bodies, const std::vector<Move
 void Script::return_to(const std::vector<RigidState>& states, double time,
                        std::vector<double>& behind) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (behind[bodies_[k]] >= 2.0 * step_) {
-      if (const std::optional<double> at = came_by(movers_[k], states, time)) {
-        for (std::size_t other = k; other < bodies_.size(); ++other) {
-          if (movers_[other] == movers_[k]) {
-            behind[bodies_[other]] = time - *at;
-          }
+    const auto here = movers_.begin() + static_cast<std::ptrdiff_t>(k);
+    const bool is_first = std::find(movers_.begin(), here, movers_[k]) == here;
+    if (!is_first || !(behind[bodies_[k]] > 0.0)) {
+      continue;
+    }
+    const double stopped = time - behind[bodies_[k]];
+    if (const std::optional<double> at = came_by(movers_[k], states, stopped, time)) {
+      for (std::size_t other = k; other < bodies_.size(); ++other) {
+        if (movers_[other] == movers_[k]) {
+          behind[bodies_[other]] = time - *at;
         }
       }
     }
@@ -140,21 +177,30 @@ double Script::distance_at(std::size_t mover, const std::vector<RigidState>& sta
   return farthest;
 }
 
-/// [s]  When the script had a mover where it is, in the last step. It is found where the
-/// way there and on is straight.
+/// [s]  When the script had a mover last where it is, in the last step. Of several times that are
+/// within a sample of each other any may be found.
+///
+/// @param stopped  [s]  no earlier than this
 std::optional<double> Script::came_by(std::size_t mover, const std::vector<RigidState>& states,
-                                      double time) const {
-  double from = time - step_;
-  double to = time;
-  for (int k = 0; k < kThirds; ++k) {
-    const double third = (to - from) / 3.0;
-    if (distance_at(mover, states, from + third) < distance_at(mover, states, to - third)) {
-      to -= third;
-    } else {
-      from += third;
+                                      double stopped, double time) const {
+  const double begin = std::max(stopped, time - step_);
+  const double sample = (time - begin) / kSamples;
+  for (int k = kSamples; k > 0; --k) {
+    double from = begin + (k - 1) * sample;
+    double to = std::min(time, from + 2.0 * sample);
+    for (int third = 0; third < kThirds; ++third) {
+      const double by = (to - from) / 3.0;
+      if (distance_at(mover, states, from + by) < distance_at(mover, states, to - by)) {
+        to -= by;
+      } else {
+        from += by;
+      }
+    }
+    if (distance_at(mover, states, to) <= tolerance_) {
+      return to;
     }
   }
-  return distance_at(mover, states, to) <= tolerance_ ? std::optional(to) : std::nullopt;
+  return std::nullopt;
 }
 
 }  // namespace firstcontact::detail

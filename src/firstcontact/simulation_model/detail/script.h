@@ -34,9 +34,10 @@ class Script {
 
   /// [s]  How long each part of a step lasts: one, where all scripts are straight.
   ///
-  /// @param time  [s]  at which the step begins
+  /// @param time    [s]  at which the step begins
+  /// @param behind  [s]  by so much the script of each body is
   /// @throws std::invalid_argument  if a script moves too wildly for the step
-  [[nodiscard]] std::vector<double> parts(double time) const;
+  [[nodiscard]] std::vector<double> parts(double time, const std::vector<double>& behind) const;
 
   /// What each body does in a part; nothing but for scripted ones that do not wait.
   ///
@@ -64,10 +65,12 @@ class Script {
 
  private:
   [[nodiscard]] double share(double time) const;
+  [[nodiscard]] std::vector<double> parts_of(const std::vector<ScriptedMotion>& motions,
+                                             double time) const;
   [[nodiscard]] double distance_at(std::size_t mover, const std::vector<RigidState>& states,
                                    double time) const;
   [[nodiscard]] std::optional<double> came_by(std::size_t mover,
-                                              const std::vector<RigidState>& states,
+                                              const std::vector<RigidState>& states, double stopped,
                                               double time) const;
 
   const LoadedScene& loaded_;

@@ -178,7 +178,7 @@ void RunFollower::require_behind(const RunBody& body, const PieceMotion& end, co
   const RunMember& member = members_[body.body];
   behind_[body.body] = body.behind;
   const double most = time_ + step.lasted;
-  if (member.is_free || !(body.behind >= 0.0 && body.behind <= most)) {
+  if (member.is_free || !(body.behind >= 0.0 && body.behind <= (1.0 + kTimeRounding) * most)) {
     throw BrokenRun("\"" + member.name + "\" is said to be " + number(body.behind) +
                     " s behind its motion in the scene at " + number(most) + " s");
   }
