@@ -1,12 +1,14 @@
 // Times both loops of a haptic scene in virtual time, and prints how far forces are from those of a
 // contact loop that runs to convergence at that tick, from where the tool is: those that the hand
-// feels, of a set that is a millisecond old, and those of the set that this tick's cycle makes.
+// feels, of a set that is 1 to 1.75 ms old, and those of the set that this tick's cycle makes.
 //
-//     haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS [HAND]]]]]]
+//     haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS [HAND [LEAD]]]]]]]
 //
 // The hand knows nothing of the scene: random via points in a ball of RADIUS [m] around the start,
-// strokes of up to SPEED [m/s] in the mean. HAND is its stiffness [N/m]. Times are those of the
-// thread's CPU clock; every tick counts. Forces are compared where there is no friction.
+// strokes of up to SPEED [m/s] in the mean. HAND is its stiffness [N/m]. LEAD [ms] is
+// how far the targets of cycles lead; with 0 the set of a tick's own cycle shows what rounds leave.
+// Times are those of the thread's CPU clock; every tick counts. Forces are compared where there is
+// no friction.
 
 #include <ctime>
 
@@ -26,6 +28,7 @@
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
 #include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/detail/target_lead.h>
 #include <firstcontact/haptics/force_loop.h>
 #include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics/timing_histogram.h>
@@ -37,6 +40,9 @@
 namespace firstcontact {
 namespace {
 
+/// [ticks]  Every so many forces are compared: at each age of a set in turn.
+constexpr std::int64_t kCompared = 31;
+
 struct Options {
   double seconds = 10.0;
   double speed = 0.5;
@@ -44,6 +50,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::size_t most_contacts = 32;
   double hand = 400.0;
+  double lead = 1.375;  // [ms]  To the middle of 1 to 1.75 ms, the ages of the sets that are felt.
 };
 
 std::int64_t cpu_ns() {
@@ -117,12 +124,15 @@ class Reference {
   }
 
   /// The force on the first tool, from where the tools are; none where 60 rounds do not suffice.
-  std::optional<Eigen::Vector3d> force(const ContactLoop& from, const std::vector<Pose>& targets,
+  ///
+  /// @param from  the contact set that is felt
+  std::optional<Eigen::Vector3d> force(const HapticContactSet& from, double contact_distance,
+                                       const std::vector<Pose>& targets,
                                        const std::vector<DeviceState>& states, std::int64_t now) {
     for (std::size_t k = 0; k < targets.size(); ++k) {
-      scene_.tools[k].X_WB = from.pose(k);
+      scene_.tools[k].X_WB = from.X_WB[k];
     }
-    scene_.contact_distance = from.contact_distance();
+    scene_.contact_distance = contact_distance;
     ContactLoop contacts(scene_, options_);
     const bool is_converged = contacts.advance(targets, 1e-3, now).is_converged;
     HapticContactSet set = contacts.contact_set();
@@ -169,6 +179,8 @@ int run(const std::string& file, const Options& options) {
   HapticContactSet set = contacts.contact_set();
   std::vector<DeviceState> states(devices.size());
   std::vector<Pose> targets(devices.size());
+  std::vector<Pose> led(devices.size());
+  std::vector<detail::TargetLead> leads(mappings.begin(), mappings.end());
   for (std::int64_t k = 0; k < count; ++k) {
     const std::int64_t now = 250'000 * k;
     for (std::size_t d = 0; d < devices.size(); ++d) {
@@ -184,10 +196,12 @@ int run(const std::string& file, const Options& options) {
     for (std::size_t d = 0; d < devices.size(); ++d) {
       devices[d]->command(tick.tools[d].command, now);
       targets[d] = tick.tools[d].target;
+      leads[d].watch(now, tick.tools[d]);
+      led[d] = leads[d].target_in(1e-3 * options.lead);
     }
     std::optional<Eigen::Vector3d> exact;
-    if (k % 32 == 0) {  // From the first tick on: the ramp of its force has to be over, too.
-      exact = reference.force(contacts, targets, states, now);
+    if (k % kCompared == 0) {  // From the first tick on: the ramp has to be over there, too.
+      exact = reference.force(set, contacts.contact_distance(), targets, states, now);
     }
     exact = k > 1000 ? exact : std::nullopt;
     if (exact) {
@@ -195,7 +209,7 @@ int run(const std::string& file, const Options& options) {
     }
     if (k % 4 == 0) {
       const std::int64_t begin = cpu_ns();
-      const HapticCycle& cycle = contacts.advance(targets, 1e-3, now);
+      const HapticCycle& cycle = contacts.advance(led, 1e-3, now);
       const std::int64_t took = cpu_ns() - begin;
       cycle_cpu.add(took);
       if (cycle.contacts > 0) {
@@ -203,7 +217,7 @@ int run(const std::string& file, const Options& options) {
       }
       found.add(static_cast<std::int64_t>(cycle.contacts));
       rounds += cycle.contacts > 0 ? cycle.rounds : 0;
-      if (k % 32 == 0) {
+      if (k % kCompared == 0) {
         const ForceTick& own = forces_at_once.tick(now, contacts.contact_set(), states);
         if (exact) {
           at_once.add(own.tools[0].force_W, *exact);
@@ -237,7 +251,7 @@ int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
                  "haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS "
-                 "[HAND]]]]]]\n");
+                 "[HAND [LEAD]]]]]]]\n");
     return 2;
   }
   firstcontact::Options options;
@@ -250,5 +264,6 @@ int main(int argc, char** argv) {
   options.seed = static_cast<std::uint64_t>(number(5, 1.0));
   options.most_contacts = static_cast<std::size_t>(number(6, 32.0));
   options.hand = number(7, options.hand);
+  options.lead = number(8, options.lead);
   return firstcontact::run(argv[1], options);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -116,6 +117,85 @@ TEST(HapticSession, DeviceThatStartsInsideFeelsARampAndNoKick) {
   }
   EXPECT_NEAR(last.z(), 5.0, 0.05);
   EXPECT_GT(session.contacts().pose(0).position.z(), 0.02);
+}
+
+/// Samples of a device, one each tick.
+struct Sampled {
+  DeviceState operator()(const Vector3d& position, std::int64_t now_ns) {
+    DeviceState state = live_at(position);
+    state.time_ns = now_ns;
+    state.sequence = ++count;
+    return state;
+  }
+  std::uint64_t count = 0;
+};
+
+// The contacts of a cycle are found where the device is when they are felt, in the mean.
+TEST(HapticSession, MeetsTheDeviceWhenContactsAreFelt) {
+  for (const std::int64_t latency_ns : {0, 1'000'000}) {
+    HapticSessionOptions options;
+    options.contact_latency_ns = latency_ns;
+    HapticSession session(cube_on_floor(), options);
+    Sampled sampled;
+    double mean = 0.0;
+    constexpr int kTicks = 400;
+    for (int k = 0; k < 2 * kTicks; ++k) {
+      const double x = 0.3 * 1e-9 * static_cast<double>(session.time_ns());
+      const ForceTick& tick = session.step(std::array{sampled({x, 0.0, 0.0}, session.time_ns())});
+      ASSERT_EQ(tick.tools[0].command.force_D, Vector3d::Zero());
+      if (k >= kTicks) {
+        mean += (session.contact_set().X_WB[0].position.x() - x) / kTicks;
+      }
+    }
+    EXPECT_NEAR(mean, 0.0, 1e-9) << latency_ns;
+  }
+}
+
+// A minute on the floor, pulled aside within the cone, behind an encoder that trembles.
+TEST(HapticSession, DoesNotCreepBehindATremblingEncoder) {
+  HapticSession session(cube_on_floor(0.5));
+  Sampled sampled;
+  std::mt19937_64 rng(3);
+  Vector3d settled = Vector3d::Zero();
+  for (int k = 0; k < 61 * 4000; ++k) {
+    const Vector3d steps(static_cast<double>(rng() % 3), static_cast<double>(rng() % 3),
+                         static_cast<double>(rng() % 3));
+    const Vector3d pulled(6e-4 * std::min(1.0, k / 1000.0), 0.0, -0.012);
+    (void)session.step(std::array{sampled(pulled + 1e-5 * steps, session.time_ns())});
+    if (k == 4000) {
+      settled = session.contacts().pose(0).position;
+    }
+  }
+  EXPECT_LE((session.contacts().pose(0).position - settled).head<2>().norm(), 1e-7);
+}
+
+/// [N]  Root mean square of the change of the force, 0.5 s held at a corner by a trembling encoder.
+double swing_at_a_corner(double tremble) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("finger", make_sphere(0.005), {0.0, 0.0, 0.0}));
+  scene.bodies.push_back(body_at("wall", make_box({0.1, 0.1, 0.1}), {0.06, 0.0, 0.0}));
+  scene.bodies.push_back(body_at("floor", make_box({0.5, 0.5, 0.1}), {0.0, 0.0, -0.06}));
+  HapticSession session(scene);
+  Sampled sampled;
+  std::mt19937_64 rng(3);
+  double power = 0.0;
+  Vector3d last = Vector3d::Zero();
+  for (int k = 0; k < 6000; ++k) {
+    const Vector3d steps(static_cast<double>(rng() % 2), static_cast<double>(rng() % 2),
+                         static_cast<double>(rng() % 2));
+    const ForceTick& tick = session.step(
+        std::array{sampled(Vector3d(0.008, 0.0, -0.008) + tremble * steps, session.time_ns())});
+    const Vector3d& force = tick.tools[0].command.force_D;
+    power += k >= 4000 ? (force - last).squaredNorm() / 2000.0 : 0.0;
+    last = force;
+  }
+  return std::sqrt(power);
+}
+
+TEST(HapticSession, SwingsNoMoreAtACornerThanTheEncoderDoes) {
+  EXPECT_LE(swing_at_a_corner(0.0), 1e-9);
+  // A step of 10 um is 0.01 N along each of the two normals.
+  EXPECT_LE(swing_at_a_corner(1e-5), 0.0101);
 }
 
 TEST(HapticSession, RefusesRatesOutOfRange) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <firstcontact/haptics/detail/session_periods.h>
+#include <firstcontact/haptics/detail/target_lead.h>
 
 namespace firstcontact {
 
@@ -35,6 +36,11 @@ SessionPeriods session_periods(const HapticSessionOptions& options) {
   return periods;
 }
 
+double lead_of(const SessionPeriods& periods) {
+  return 1e-9 * (static_cast<double>(periods.latency_ns) +
+                 0.5 * static_cast<double>(periods.cycle_ns - periods.force_ns));
+}
+
 }  // namespace detail
 
 std::vector<DeviceMapping> complete_mappings(const HapticScene& scene,
@@ -55,6 +61,10 @@ class HapticSession::Implementation {
         contacts_(std::move(scene), options.contacts),
         set_(contacts_.contact_set()) {
     targets_.resize(contacts_.scene().tools.size());
+    lead_ = detail::lead_of(periods_);
+    for (const DeviceMapping& mapping : complete_mappings(contacts_.scene(), options.mappings)) {
+      leads_.emplace_back(mapping);
+    }
   }
 
   const ForceTick& step(std::span<const DeviceState> devices) {
@@ -67,9 +77,12 @@ class HapticSession::Implementation {
     }
     const ForceTick& tick = forces_.tick(now_ns_, set_, devices);
     cycle_ = nullptr;
+    for (std::size_t k = 0; k < leads_.size(); ++k) {
+      leads_[k].watch(now_ns_, tick.tools[k]);
+    }
     if (!is_running_ && now_ns_ >= begins_ns_) {
       for (std::size_t k = 0; k < targets_.size(); ++k) {
-        targets_[k] = tick.tools[k].target;
+        targets_[k] = leads_[k].target_in(lead_);
       }
       cycle_ = &contacts_.advance(targets_, 1e-9 * static_cast<double>(periods_.cycle_ns), now_ns_);
       is_running_ = true;
@@ -88,6 +101,8 @@ class HapticSession::Implementation {
   std::int64_t now_ns_ = 0;
 
  private:
+  double lead_ = 0.0;  // [s]
+  std::vector<detail::TargetLead> leads_;
   std::vector<Pose> targets_;
   bool is_running_ = false;
   std::int64_t ends_ns_ = 0;

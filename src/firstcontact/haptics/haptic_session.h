@@ -28,7 +28,8 @@ struct HapticSessionOptions {
 /// Steps a force loop and a contact loop in virtual time.
 ///
 /// The contact loop begins a cycle with the targets of a tick, and its contacts act from the tick
-/// on at which its latency is over.
+/// on at which its latency is over. It leads targets of devices with regular samples by their
+/// velocity, to the middle of the ticks that feel its contacts.
 class FIRSTCONTACT_API HapticSession {
  public:
   /// @throws std::invalid_argument as ContactLoop and ForceLoop; a rate or the latency is out of

@@ -19,6 +19,7 @@
 #include <firstcontact/haptic_devices/mail_slot.h>
 #include <firstcontact/haptics/detail/real_time.h>
 #include <firstcontact/haptics/detail/session_periods.h>
+#include <firstcontact/haptics/detail/target_lead.h>
 #include <firstcontact/haptics/detail/tick_ring.h>
 
 namespace firstcontact {
@@ -41,7 +42,8 @@ void sleep_until_ns(std::int64_t at_ns) {
   std::this_thread::sleep_until(WallClock::time_point(std::chrono::nanoseconds(at_ns)));
 }
 
-/// Where the devices want the tools, as the force loop hands it to the contact loop.
+/// Where the devices will want the tools when a cycle has ended, as the force loop hands it to the
+/// contact loop.
 struct HandedTargets {
   std::uint64_t sequence = 0;
   std::int64_t time_ns = 0;
@@ -75,12 +77,14 @@ struct SharedSession {
 class ForceThread {
  public:
   ForceThread(SharedSession& shared, ForceLoop& loop, std::span<Device* const> devices,
-              std::int64_t period_ns, std::int64_t duration_ns, bool real_time,
-              WallSessionReport& report)
+              std::vector<detail::TargetLead> leads, const detail::SessionPeriods& periods,
+              std::int64_t duration_ns, bool real_time, WallSessionReport& report)
       : shared_(shared),
         loop_(loop),
         devices_(devices),
-        period_ns_(period_ns),
+        leads_(std::move(leads)),
+        lead_(1e-9 * static_cast<double>(periods.cycle_ns)),
+        period_ns_(periods.force_ns),
         duration_ns_(duration_ns),
         real_time_(real_time),
         report_(report) {}
@@ -150,7 +154,8 @@ class ForceThread {
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       limit(tick.tools[k], devices_[k]->capabilities());
       devices_[k]->command(tick.tools[k].command, now);
-      handed.targets[k] = tick.tools[k].target;
+      leads_[k].watch(now, tick.tools[k]);
+      handed.targets[k] = leads_[k].target_in(lead_);
     }
     shared_.targets.put(handed);
     shared_.ticks.push(tick);
@@ -162,6 +167,8 @@ class ForceThread {
   SharedSession& shared_;
   ForceLoop& loop_;
   std::span<Device* const> devices_;
+  std::vector<detail::TargetLead> leads_;
+  double lead_;  // [s]
   std::int64_t period_ns_;
   std::int64_t duration_ns_;
   bool real_time_;
@@ -292,7 +299,8 @@ WallSessionReport run_wall_session(
   HapticSessionOptions without_latency = options;
   without_latency.contact_latency_ns = 0;
   const detail::SessionPeriods periods = detail::session_periods(without_latency);
-  ForceLoop forces(scene, complete_mappings(scene, options.mappings), options.forces);
+  const std::vector<DeviceMapping> mappings = complete_mappings(scene, options.mappings);
+  ForceLoop forces(scene, mappings, options.forces);
   ContactLoop contacts(std::move(scene), options.contacts);
   const auto shared = std::make_unique<SharedSession>();
   WallSessionReport report;
@@ -300,8 +308,8 @@ WallSessionReport run_wall_session(
   {
     const auto duration_ns = static_cast<std::int64_t>(1e9 * wall.duration);
     put_contacts_at_start(contacts, duration_ns, periods.force_ns, *shared);
-    ForceThread force(*shared, forces, devices, periods.force_ns, duration_ns, wall.real_time,
-                      report);
+    ForceThread force(*shared, forces, devices, {mappings.begin(), mappings.end()}, periods,
+                      duration_ns, wall.real_time, report);
     ContactThread contact(*shared, contacts, periods.cycle_ns, wall, report);
     const RunningThreads threads(*shared, force, contact);
     while (!shared->force_is_done) {

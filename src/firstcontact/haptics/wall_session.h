@@ -53,7 +53,8 @@ struct WallSessionReport {
 ///
 /// Ticks and cycles are handed to the calling thread, which may write them down: it keeps neither
 /// loop from going on. A contact loop that is slow makes no tick late: the force loop goes on with
-/// the newest contacts there are, as HapticLimits say.
+/// the newest contacts there are, as HapticLimits say. Cycles lead targets of devices with regular
+/// samples by their velocity, for one period of the contact loop.
 ///
 /// @param options   as HapticSession, but without the latency: it is that of the machine
 /// @param devices   one for each tool

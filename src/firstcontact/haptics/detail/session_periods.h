@@ -18,4 +18,7 @@ struct SessionPeriods {
 /// @throws std::invalid_argument if a rate or the latency is out of its range
 [[nodiscard]] SessionPeriods session_periods(const HapticSessionOptions& options);
 
+/// [s]  How far the targets of a cycle lead: to the middle of the ticks that feel its contacts.
+[[nodiscard]] double lead_of(const SessionPeriods& periods);
+
 }  // namespace firstcontact::detail

@@ -25,6 +25,13 @@ bool is_sound(const DeviceState& device) noexcept {
          device.linear_rate.norm() <= kMostOfSample && device.angular_rate.norm() <= kMostOfSample;
 }
 
+Vector3d shortened(const Vector3d& vector, double most) noexcept {
+  const double length = vector.norm();
+  return length > most ? Vector3d(most / length * vector) : vector;
+}
+
+}  // namespace
+
 Eigen::Quaterniond turn_by(const Vector3d& rotation_vector) noexcept {
   const double angle = rotation_vector.norm();
   if (!(angle > 0.0)) {
@@ -35,13 +42,6 @@ Eigen::Quaterniond turn_by(const Vector3d& rotation_vector) noexcept {
   turn.vec() = std::sin(0.5 * angle) / angle * rotation_vector;
   return turn;
 }
-
-Vector3d shortened(const Vector3d& vector, double most) noexcept {
-  const double length = vector.norm();
-  return length > most ? Vector3d(most / length * vector) : vector;
-}
-
-}  // namespace
 
 std::uint32_t TargetFollower::faults_of(const DeviceState& device) const noexcept {
   std::uint32_t faults = 0;

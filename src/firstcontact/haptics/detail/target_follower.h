@@ -5,6 +5,9 @@
 
 #include <cstdint>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include <firstcontact/haptics/force_loop.h>
 
 namespace firstcontact::detail {
@@ -41,5 +44,8 @@ class TargetFollower {
   std::int64_t since_ns_ = 0;
   std::uint32_t faults_ = 0;
 };
+
+/// The turn by a rotation vector [rad].
+[[nodiscard]] Eigen::Quaterniond turn_by(const Eigen::Vector3d& rotation_vector) noexcept;
 
 }  // namespace firstcontact::detail

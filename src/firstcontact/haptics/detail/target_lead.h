@@ -1,0 +1,67 @@
+/// @file
+/// Where a device's target will be when the contacts of a cycle are felt.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact::detail {
+
+/// Leads the target of one device by its velocity.
+///
+/// The velocity is that of the last two milliseconds, shortened to the speed of the two before. So
+/// a target at constant velocity is met, and one that was still is not led: neither a jump nor the
+/// step of an encoder is taken for a motion. There is no lead where the device is not engaged, sets
+/// rates, is faster than a hand, or gives too few samples to tell.
+///
+/// Nothing is allocated.
+class TargetLead {
+ public:
+  explicit TargetLead(const DeviceMapping& mapping) noexcept
+      : scale_(mapping.scale), is_pose_(mapping.kind == DeviceKind::pose) {}
+
+  /// Takes the next tick of the force loop.
+  void watch(std::int64_t now_ns, const ToolTick& tick) noexcept;
+
+  /// X_WB in so many seconds; the target of the last tick where there is no lead.
+  ///
+  /// @param seconds  [s]  >= 0; more than 4 ms count as 4 ms
+  [[nodiscard]] Pose target_in(double seconds) const noexcept;
+
+ private:
+  struct Sample {
+    std::int64_t time_ns = 0;
+    Pose target;
+  };
+  struct Velocity {
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // [m/s]
+    Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // [rad/s]
+  };
+
+  void take(const Sample& sample) noexcept;
+  [[nodiscard]] const Sample* sample_at(std::int64_t time_ns) const noexcept;
+  [[nodiscard]] static Velocity between(const Sample& from, const Sample& to) noexcept;
+  [[nodiscard]] std::optional<Velocity> velocity() const noexcept;
+
+  static constexpr std::size_t kKept = 16;
+
+  double scale_;
+  bool is_pose_;
+  std::array<Sample, kKept> kept_ = {};
+  std::size_t count_ = 0;  // Of all samples that were kept since the engagement.
+  std::int64_t now_ns_ = 0;
+  bool has_newest_ = false;
+  std::uint64_t sequence_ = 0;  // Of the newest sample.
+  Sample newest_;
+  Pose target_;  // Of the last tick.
+};
+
+}  // namespace firstcontact::detail
