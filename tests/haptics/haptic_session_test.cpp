@@ -28,6 +28,17 @@ DeviceState live_at(const Vector3d& position) {
   return device;
 }
 
+/// Samples of a device, one each tick.
+struct Sampled {
+  DeviceState operator()(const Vector3d& position, std::int64_t now_ns) {
+    DeviceState state = live_at(position);
+    state.time_ns = now_ns;
+    state.sequence = ++count;
+    return state;
+  }
+  std::uint64_t count = 0;
+};
+
 TEST(HapticSession, RunsCyclesAtTheirRate) {
   HapticSession session(cube_on_floor());
   int cycles = 0;
@@ -68,12 +79,13 @@ TEST(HapticSession, SlewStaysAsDeclaredOverTheEdgesOfACube) {
   HapticSessionOptions options;
   options.forces.limits.force_slew = 2000.0;
   HapticSession session(scene, options);
+  Sampled sampled;
   Vector3d last = Vector3d::Zero();
   double greatest = 0.0;
   constexpr int kTicks = 16'000;
   for (int k = 0; k < kTicks; ++k) {
     const double s = 0.25 + static_cast<double>(k) / kTicks;
-    const ForceTick& tick = session.step(std::array{live_at(around_a_cube(s))});
+    const ForceTick& tick = session.step(std::array{sampled(around_a_cube(s), session.time_ns())});
     const Vector3d& force = tick.tools[0].command.force_D;
     ASSERT_LE((force - last).norm(), 2000.0 * 250e-6 * (1.0 + 1e-9)) << k;
     ASSERT_TRUE(force.allFinite());
@@ -89,11 +101,13 @@ TEST(HapticSession, BoundsTheForceWhileTheContactLoopStalls) {
     HapticSessionOptions options;
     options.contact_latency_ns = 1'000'000 * stall_ms;
     HapticSession session(cube_on_floor(), options);
+    Sampled sampled;
     double greatest = 0.0;
     Vector3d last = Vector3d::Zero();
     for (int k = 0; k < 8000; ++k) {
       const double press = -0.012 + 1e-3 * std::sin(0.004 * k);
-      const ForceTick& tick = session.step(std::array{live_at({0.0, 0.0, press})});
+      const ForceTick& tick =
+          session.step(std::array{sampled({0.0, 0.0, press}, session.time_ns())});
       const Vector3d& force = tick.tools[0].command.force_D;
       ASSERT_LE((force - last).norm(), 5.0 + 1e-9);
       greatest = std::max(greatest, force.norm());
@@ -118,17 +132,6 @@ TEST(HapticSession, DeviceThatStartsInsideFeelsARampAndNoKick) {
   EXPECT_NEAR(last.z(), 5.0, 0.05);
   EXPECT_GT(session.contacts().pose(0).position.z(), 0.02);
 }
-
-/// Samples of a device, one each tick.
-struct Sampled {
-  DeviceState operator()(const Vector3d& position, std::int64_t now_ns) {
-    DeviceState state = live_at(position);
-    state.time_ns = now_ns;
-    state.sequence = ++count;
-    return state;
-  }
-  std::uint64_t count = 0;
-};
 
 // The contacts of a cycle are found where the device is when they are felt, in the mean.
 TEST(HapticSession, MeetsTheDeviceWhenContactsAreFelt) {
