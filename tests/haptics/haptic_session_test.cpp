@@ -154,6 +154,24 @@ TEST(HapticSession, MeetsTheDeviceWhenContactsAreFelt) {
   }
 }
 
+// The hand brakes above the floor, and the led tool touches it: no force, exactly.
+TEST(HapticSession, FeelsNothingWhereOnlyTheLedToolTouches) {
+  HapticSessionOptions options;
+  options.contact_latency_ns = 1'000'000;
+  HapticSession session(cube_on_floor(), options);
+  Sampled sampled;
+  std::uint32_t touched = 0;
+  for (int k = 0; k < 8000; ++k) {
+    // At 8 Hz, at least 20 um above the floor; the tool rests at 14 um.
+    const double height = 0.01 * (1.0 + std::cos(2.0 * std::numbers::pi * 0.002 * k)) + 2e-5;
+    const ForceTick& tick =
+        session.step(std::array{sampled({0.0, 0.0, height - 0.01}, session.time_ns())});
+    ASSERT_EQ(tick.tools[0].command.force_D, Vector3d::Zero()) << k;
+    touched += tick.contacts;
+  }
+  EXPECT_GT(touched, 0U);
+}
+
 // A minute on the floor, pulled aside within the cone, behind an encoder that trembles.
 TEST(HapticSession, DoesNotCreepBehindATremblingEncoder) {
   HapticSession session(cube_on_floor(0.5));
