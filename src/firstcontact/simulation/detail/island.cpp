@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include <firstcontact/simulation/detail/impact_search.h>
@@ -220,7 +218,9 @@ class Island {
       }
     }
     std::vector<std::size_t> all;
-    std::ranges::copy(std::views::keys(scripts_), std::back_inserter(all));
+    for (const auto& [body, closing] : scripts_) {
+      all.push_back(body);
+    }
     return all;
   }
 
