@@ -62,6 +62,7 @@ struct RunVerification {
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
   /// [m]  No point of a scripted body is farther from where its motion in the scene has it, at any
   /// time. Where a body is behind, that is where its motion had it so much earlier.
+  /// Steps in which it waited, or its script came by, count at their end alone.
   double scripted_deviation = 0.0;
   /// [s]  No scripted body is behind its motion by more: it waited rather than crush what was in
   /// its way.

@@ -20,8 +20,8 @@ void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& w
                    LinkWorkspace& workspace, const FirstContactOptions& options,
                    FirstContactResult& result);
 
-/// As detail::first_contact_early of a pair of shapes, from where their hulls come near. Of the
-/// result only verdict, reason and times are of meaning.
+/// As detail::first_contact_early of a pair of shapes, from where their hulls come near. The
+/// verdict, the reason and the times are set, no contact state is.
 void first_contact_early(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
                          const ShapeHull& hull_B, const TimeWindow& window, double early,
                          LinkWorkspace& workspace, const FirstContactOptions& options,

@@ -24,7 +24,7 @@ struct SimulationState;
 /// It is taken in parts in which scripted bodies move straight. Where they would crush what cannot
 /// yield and may wait (JamRule), they go as far as they can, and wait in the rest of the step.
 ///
-/// @param state  advanced; of no use if it was stopped
+/// @param state  is advanced. Where the step was stopped it is left halfway.
 /// @returns  nothing if it was stopped
 [[nodiscard]] std::optional<RunStep> advance_step(const SimulationModel& model,
                                                   const Script& script, const Simulation& settings,

@@ -181,8 +181,8 @@ class Island {
     return squeezed_ >= kMostSqueezed || crushed_ >= most;
   }
 
-  /// Takes note of scripts that touch the island or get in the way of a plan, and of how fast they
-  /// close there by themselves.
+  /// Takes note of scripts that touch the island or get in the way of a plan, and of how far [m]
+  /// they close there in the step by themselves.
   void meet(const ManifoldPoint& touch, std::map<std::size_t, double>& scripts) {
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t body = touch.bodies[side];
