@@ -10,7 +10,7 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/record/run_step.h>
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 

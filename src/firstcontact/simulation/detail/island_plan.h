@@ -13,9 +13,9 @@
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/plan_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/moving_contact.h>

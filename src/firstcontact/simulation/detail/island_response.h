@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/response.h>
 
 namespace firstcontact::detail {

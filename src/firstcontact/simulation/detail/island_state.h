@@ -16,7 +16,7 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/moving_contact.h>

@@ -12,7 +12,7 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/sim_tie.h>
 
 namespace firstcontact::detail {

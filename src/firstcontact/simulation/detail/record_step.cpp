@@ -8,9 +8,9 @@
 
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>

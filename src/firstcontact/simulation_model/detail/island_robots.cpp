@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 
 #include <algorithm>
 #include <cmath>

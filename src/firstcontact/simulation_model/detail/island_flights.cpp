@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
