@@ -124,11 +124,11 @@ class Island {
                          : std::numeric_limits<double>::infinity();
   }
 
-  /// [s]  In which bodies that touch turn no farther than contacts can follow. In heaps, and where
-  /// robots or ties act, they do not follow.
+  /// [s]  In which bodies that touch turn no farther than contacts can follow. In heaps they do not
+  /// follow.
   [[nodiscard]] double turning_span() {
     double longest = std::numeric_limits<double>::infinity();
-    if (!state_.robots.empty() || !state_.ties.empty() || is_heap(state_, state_.touches())) {
+    if (is_heap(state_, state_.touches())) {
       return longest;
     }
     for (const auto& [pair, manifold] : state_.manifolds) {
@@ -148,7 +148,7 @@ class Island {
   /// [s]  In which a body that touches turns no farther than gyroscopic moments allow.
   [[nodiscard]] double spinning_span(std::size_t body) const {
     const SimBody& described = state_.model.bodies[body];
-    if (described.kind != BodyKind::free || is_locked(described.inertia) ||
+    if (described.kind != BodyKind::free || described.link_body || is_locked(described.inertia) ||
         is_isotropic(described.inertia)) {
       return std::numeric_limits<double>::infinity();
     }

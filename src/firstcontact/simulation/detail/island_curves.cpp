@@ -139,9 +139,6 @@ double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
     way += span_ * (sides[s].v.norm() + w.norm() * arm.norm());
     sagittas += 0.5 * span_ * span_ * w.norm() * w.cross(arm).norm();
   }
-  if (!state_.robots.empty() || !state_.ties.empty()) {
-    sagittas = 0.0;
-  }
   return state_.model.distances.least + way * turn + sagittas;
 }
 

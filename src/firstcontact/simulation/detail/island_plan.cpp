@@ -269,7 +269,10 @@ void IslandPlanner::solve() {
   if (last_) {
     again = project_plan_again(state_, problem_, *last_, changed_);
   }
-  const std::optional<double> free = spins_ ? std::optional(spins_->energy) : std::nullopt;
+  std::optional<double> free;
+  if (spins_) {
+    free = spins_->energy + kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
+  }
   last_ = again ? std::move(*again) : project_plan(state_, problem_, free);
   changed_.clear();
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
@@ -293,17 +296,15 @@ Plan IslandPlanner::plan() {
     solve();
   }
   by_end_ = by_end_ || !mean_is_allowed();
-  if (spins_ && (by_end_ || last_->is_limited)) {
-    forget_spins();
-    solve();
-    by_end_ = by_end_ || !mean_is_allowed();
-  }
+  end_spins();
   if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
     solve();
     by_end_ = by_end_ || !mean_is_allowed();
+    end_spins();
   }
   if (!ties_.empty()) {
     follow_ties();
+    end_spins();
   }
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies,

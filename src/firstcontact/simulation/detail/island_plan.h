@@ -106,9 +106,9 @@ class IslandPlanner {
   /// Bodies that spin in contact: their flights have the angular impulses of contacts. Angular
   /// velocities of the problem are those of the world, at the end of the plan.
   struct Spins {
-    FreeFlight without;           // Contacts.
-    double energy = 0.0;          // [J]  Of that flight.
-    std::vector<bool> is_member;  // Of each member: it is one of these bodies.
+    /// [N m s]  Of contacts in the flight of each member; nothing: it is none of these bodies.
+    std::vector<std::optional<Eigen::Vector3d>> impulses;
+    double energy = 0.0;  // [J]  Of the bodies, where they fly without contacts.
   };
 
   /// How far a plan leads a contact from its curve.
@@ -125,6 +125,7 @@ class IslandPlanner {
   [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
+  void fly_bodies();
   void lay_ties();
   void fly_with_ties();
   void follow_ties();
@@ -154,7 +155,11 @@ class IslandPlanner {
   [[nodiscard]] bool follow_spins();
   [[nodiscard]] bool may_spin(std::size_t k) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> angular_impulses() const;
+  [[nodiscard]] bool spins(std::size_t k) const;
+  bool spin(std::size_t k, const Eigen::Vector3d& impulse, double tolerance);
+  void take_spins();
   void forget_spins();
+  void end_spins();
   void carry_back(Plan& plan) const;
   [[nodiscard]] bool lifts(const PredictedContact& ahead);
   void keep_on_curves(Plan& plan) const;

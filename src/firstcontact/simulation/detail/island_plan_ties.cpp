@@ -24,18 +24,21 @@ void IslandPlanner::lay_ties() {
     moves.push_back(
         {0.5 * span_ * (bodies_.bodies()[k].v + flight_.at_end[k].v), flight_.rotation_vectors[k]});
   }
-  ties_.lay(bodies_, {moves, flights_, led_by_end()}, problem_);
+  std::vector<ContactBody> at_end = problem_.bodies;
+  std::vector<bool> spinning(state_.size(), false);
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (spins(k)) {
+      at_end[k].w = flight_.at_end[k].w;
+      spinning[k] = true;
+    }
+  }
+  ties_.lay(bodies_, {moves, flights_, led_by_end(), at_end, spinning}, problem_);
   laid_by_end_ = by_end_;
 }
 
 /// Makes flights and rows anew, and solves.
 void IslandPlanner::fly_with_ties() {
-  flight_ = free_flight();
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    if (!state_.member(k).link_body) {
-      problem_.bodies[k] = flight_.at_end[k];
-    }
-  }
+  fly_bodies();
   if (state_.robots.empty()) {
     lay_ties();
   } else {
@@ -70,6 +73,7 @@ void IslandPlanner::follow_ties() {
     }
     before = change;
     ties_.take(last_->velocities.ties);
+    take_spins();
     fly_with_ties();
   }
 }

@@ -13,14 +13,16 @@ namespace firstcontact::detail {
 
 using Eigen::Vector3d;
 
-/// Whether gyroscopic moments act on a member that turns much in the plan. Robots and ties have
-/// flights of their own.
+/// Whether gyroscopic moments act on a member that turns much in the plan. Robots have flights of
+/// their own.
 bool IslandPlanner::may_spin(std::size_t k) const {
-  const Inertia& inertia = state_.member(k).inertia;
+  const SimBody& member = state_.member(k);
   const double turn = span_ * state_.states[k].w_WB.norm();
-  return state_.robots.empty() && state_.ties.empty() && !is_locked(inertia) &&
-         !is_isotropic(inertia) && turn > kSpin && turn < kMostSpin;
+  return !member.link_body && !is_locked(member.inertia) && !is_isotropic(member.inertia) &&
+         turn > kSpin && turn < kMostSpin;
 }
+
+bool IslandPlanner::spins(std::size_t k) const { return spins_ && spins_->impulses[k]; }
 
 /// [N m s]  Of the contacts on each member in the last solution.
 std::vector<Vector3d> IslandPlanner::angular_impulses() const {
@@ -40,9 +42,8 @@ std::vector<Vector3d> IslandPlanner::angular_impulses() const {
 }
 
 /// Lets bodies that spin turn with the angular impulses of the last solution, as ties do with
-/// theirs: gyroscopic moments act on what these impulses change. The next solution finds all of the
-/// impulses again, so what they do to the velocities is taken off the flight. Returns whether that
-/// changes the problem.
+/// theirs: gyroscopic moments act on what these impulses change. Returns whether that changes the
+/// problem.
 bool IslandPlanner::follow_spins() {
   if (last_->is_limited || !is_solved(state_, last_->velocities)) {
     return false;
@@ -57,32 +58,9 @@ bool IslandPlanner::follow_spins() {
     if (impulses.empty()) {
       impulses = angular_impulses();
     }
-    if (impulses[k].isZero(0.0) && !(spins_ && spins_->is_member[k])) {
-      continue;
+    if (!impulses[k].isZero(0.0) || spins(k)) {
+      is_changed = spin(k, impulses[k], tolerance) || is_changed;
     }
-    const Inertia& inertia = state_.member(k).inertia;
-    const RigidState& state = state_.states[k];
-    const Vector3d& torque = spins_ ? spins_->without.torques[k] : flight_.torques[k];
-    const FreeTurn flown = free_turn(inertia, state, torque + impulses[k] / span_, span_);
-    const InverseInertia at_end = inverse_inertia(
-        inertia, {state.X_WB.position, turn(flown.rotation_vector) * state.X_WB.rotation});
-    const Vector3d w = flown.w_WB - at_end.rotation * impulses[k];
-    ContactBody& body = problem_.bodies[k];
-    const Vector3d otherwise =
-        w - body.w + (at_end.rotation - body.inverse_inertia.rotation) * impulses[k];
-    if (!(state_.member(k).reach * otherwise.norm() > tolerance)) {
-      continue;
-    }
-    if (!spins_) {
-      spins_ =
-          Spins{flight_, free_energy(state_, problem_), std::vector<bool>(state_.size(), false)};
-    }
-    spins_->is_member[k] = true;
-    body.inverse_inertia = at_end;
-    body.w = w;
-    flight_.rotation_vectors[k] = flown.rotation_vector;
-    flight_.at_end[k].w = flown.w_WB;
-    is_changed = true;
   }
   if (is_changed) {
     last_.reset();
@@ -90,22 +68,93 @@ bool IslandPlanner::follow_spins() {
   return is_changed;
 }
 
+/// Lets a member fly with an angular impulse of contacts [N m s], if that changes its velocity by
+/// more than a tolerance [m/s]. The next solution finds all of the impulses again, so what this one
+/// does to the velocity is taken off the flight.
+bool IslandPlanner::spin(std::size_t k, const Vector3d& impulse, double tolerance) {
+  const Inertia& inertia = state_.member(k).inertia;
+  const RigidState& state = state_.states[k];
+  const FreeTurn flown = free_turn(inertia, state, flight_.torques[k] + impulse / span_, span_);
+  const InverseInertia at_end = inverse_inertia(
+      inertia, {state.X_WB.position, turn(flown.rotation_vector) * state.X_WB.rotation});
+  const Vector3d w = flown.w_WB - at_end.rotation * impulse;
+  ContactBody& body = problem_.bodies[k];
+  const Vector3d otherwise =
+      w - body.w + (at_end.rotation - body.inverse_inertia.rotation) * impulse;
+  if (!(state_.member(k).reach * otherwise.norm() > tolerance)) {
+    return false;
+  }
+  if (!spins_) {
+    spins_ = Spins{std::vector<std::optional<Vector3d>>(state_.size()),
+                   free_energy(state_, {.bodies = flight_.at_end})};
+  }
+  spins_->impulses[k] = impulse;
+  body.inverse_inertia = at_end;
+  body.w = w;
+  flight_.rotation_vectors[k] = flown.rotation_vector;
+  flight_.at_end[k].w = flown.w_WB;
+  return true;
+}
+
+/// The flights of all bodies, with the forces that are predicted for their ties and the impulses of
+/// contacts on those that spin.
+void IslandPlanner::fly_bodies() {
+  flight_ = free_flight();
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (!state_.member(k).link_body) {
+      problem_.bodies[k] = flight_.at_end[k];
+    }
+  }
+  if (!spins_) {
+    return;
+  }
+  spins_->energy = free_energy(state_, {.bodies = flight_.at_end});
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (spins(k)) {
+      spin(k, Vector3d(*spins_->impulses[k]), -1.0);
+    }
+  }
+}
+
+/// The next flights have the impulses of the last solution.
+void IslandPlanner::take_spins() {
+  if (by_end_) {
+    spins_.reset();
+  }
+  if (!spins_ || !is_solved(state_, last_->velocities)) {
+    return;
+  }
+  const std::vector<Vector3d> impulses = angular_impulses();
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (spins(k)) {
+      spins_->impulses[k] = impulses[k];
+    }
+  }
+}
+
 /// Where velocities at the end lead, bodies keep the velocities that they have without contacts.
 void IslandPlanner::forget_spins() {
-  flight_ = std::move(spins_->without);
-  const std::vector<ContactBody>& now = bodies_.bodies();
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    problem_.bodies[k].w = flight_.at_end[k].w;
-    problem_.bodies[k].inverse_inertia = now[k].inverse_inertia;
-  }
   spins_.reset();
+  fly_bodies();
+  if (!ties_.empty()) {
+    lay_ties();
+  }
   last_.reset();
+}
+
+/// Solves without spins where they cannot act.
+void IslandPlanner::end_spins() {
+  if (spins_ && (by_end_ || last_->is_limited)) {
+    forget_spins();
+    solve();
+    by_end_ = by_end_ || !mean_is_allowed();
+  }
 }
 
 /// Gives velocities at the end the coordinates that they have in the axes of now.
 void IslandPlanner::carry_back(Plan& plan) const {
-  for (std::size_t k = 0; k < state_.size() && spins_; ++k) {
-    if (spins_->is_member[k]) {
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (spins(k)) {
       plan.at_end[k].w =
           turned_along(state_.member(k).inertia, plan.at_end[k].w, -plan.moves[k].rotation_vector);
     }

@@ -233,7 +233,7 @@ std::array<TiedSide, 2> PlanTies::sides_of(const Acting& acting, const ProblemBo
     }
     sides[s].place = now.place(*body);
     const std::size_t k = *sides[s].place;
-    if (k < state_.size() && !state_.member(k).link_body) {
+    if (k < state_.size() && !state_.member(k).link_body && !flight.spins[k]) {
       sides[s].inertia = &state_.member(k).inertia;
       sides[s].turned = flight.moves[k].rotation_vector;
     }
@@ -270,14 +270,15 @@ void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFl
       row.target = std::max(0.0, tie.length - acting.now.between().norm()) / span_;
       row.greatest = -acting.predicted[0];
     } else if (!tie.is_joint()) {
-      add_spring(acting, k, now, sides, problem);
+      add_spring(acting, k, now, sides, flight.at_end, problem);
     }
   }
 }
 
 /// Gives the last row the numbers of a spring.
 void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodies& now,
-                          const std::array<TiedSide, 2>& sides, ContactProblem& problem) const {
+                          const std::array<TiedSide, 2>& sides,
+                          const std::vector<ContactBody>& flown, ContactProblem& problem) const {
   const SimTie& tie = *acting.tie;
   TieRow& row = problem.ties.back();
   std::array<TiedSide, 2> as_they_are = sides;
@@ -292,7 +293,7 @@ void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodi
   way.begin = extension(acting.now);
   way.flight = extension(acting.end);
   way.speed_at_begin = speed_along(row_along(acting.changing[k], as_they_are), now.bodies());
-  way.speed_of_flight = speed_along(row, problem.bodies);
+  way.speed_of_flight = speed_along(row, flown);
   way.share = acting.by_end ? 1.0 : 0.5;
   way.inverse_mass = inverse_mass_along(row, problem);
   const SpringRow law = spring_row(tie, way, span_);

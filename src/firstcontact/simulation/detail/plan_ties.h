@@ -27,6 +27,8 @@ struct IslandFlight {
   const std::vector<Move>& moves;  ///< Of each member that is no link body.
   const std::vector<RobotFlight>& robots;
   const std::vector<bool>& by_end;  ///< Of the problem's bodies: velocities at the end lead them.
+  const std::vector<ContactBody>& at_end;  ///< Of the problem's bodies: as fast as they are there.
+  const std::vector<bool>& spins;  ///< Of each member: its angular velocity there is the world's.
 };
 
 /// The ties of an island over a plan.
@@ -117,7 +119,8 @@ class PlanTies {
   void add_rows(Acting& acting, const ProblemBodies& now, const IslandFlight& flight,
                 ContactProblem& problem) const;
   void add_spring(const Acting& acting, std::size_t k, const ProblemBodies& now,
-                  const std::array<TiedSide, 2>& sides, ContactProblem& problem) const;
+                  const std::array<TiedSide, 2>& sides, const std::vector<ContactBody>& flown,
+                  ContactProblem& problem) const;
   [[nodiscard]] LinkLoad load_of(const LinkForce& force, const RobotFlight& flight) const;
   void add_outer(const Acting& acting, const std::vector<double>& impulses, bool predicted,
                  std::vector<OuterImpulse>& outer) const;
