@@ -132,7 +132,7 @@ class Island {
       return longest;
     }
     for (const auto& [pair, manifold] : state_.manifolds) {
-      if (least_gap(manifold) > state_.model.distances.touching) {
+      if (least_gap(manifold) > state_.model.distances.band) {
         continue;
       }
       for (const std::size_t body : pair) {
@@ -157,7 +157,8 @@ class Island {
   }
 
   /// [s]  In which a contact on a rim stays near its place on it, and one on an ellipsoid has
-  /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count.
+  /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count. Over
+  /// the flat side of an ellipsoid it runs fast for a short time: plans are a hundredth of a step.
   [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
     double longest = std::numeric_limits<double>::infinity();
     if (!touch.round[0].is_curved() && !touch.round[1].is_curved()) {
@@ -169,9 +170,9 @@ class Island {
     if (on_rim > 0.0 && kTurnOfCurve / on_rim >= shortest) {
       longest = std::max(kRollOfPlan * kTurnOfCurve / on_rim, shortest);
     }
-    const double on_ellipsoid = rate_on_ellipsoid(touch.normal, sides, span_);
-    return on_ellipsoid > 0.0 ? std::min(longest, std::max(kArmOfPlan / on_ellipsoid, shortest))
-                              : longest;
+    const double on_ellipsoid =
+        span_on_ellipsoid(touch.normal, sides, span_, state_.model.distances.least);
+    return std::min(longest, std::max(on_ellipsoid, kLeastShareOfFast * state_.start.h));
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until

@@ -128,8 +128,8 @@ inline constexpr double kStallOfStep = 1e-9;
 inline constexpr int kRoundsOfSlight = 12;
 /// [-]  A plan that was stopped is followed by one of at least this part of its span.
 inline constexpr double kLeastShareOfPlan = 0.1;
-/// [-]  Links that turn fast and bodies that tumble make plans shorter, down to this part of the
-/// step.
+/// [-]  Links that turn fast, bodies that tumble and ellipsoids that roll over a flat side make
+/// plans shorter, down to this part of the step.
 inline constexpr double kLeastShareOfFast = 0.01;
 /// [rad]  A body that tumbles is no farther than this from where it would be halfway through a
 /// plan, as it turns at a constant rate then: an impact in between finds it there, with another
@@ -178,9 +178,12 @@ inline constexpr double kTurnOnCorner = 0.01;
 /// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth
 /// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;
-/// [-]  And, as far as that, so short that the arm of a contact on an ellipsoid changes by no more,
-/// by its length. Larger: ellipsoids that spin gain energy.
+/// [-]  And, down to a hundredth of a step, so short that the arm of a contact on an ellipsoid
+/// changes by no more, by its length. Larger: flat or long ellipsoids gain energy.
 inline constexpr double kArmOfPlan = 0.05;
+/// [-]  And so short that the way of the ellipsoid's centre bends by no more, by the contact
+/// distance. Larger: within a plan its triangles come nearer than both ends have them.
+inline constexpr double kSagittaOfPlan = 0.5;
 /// [-]  So often is a plan solved with contacts where its solution before leads them.
 inline constexpr int kPassesOfCurves = 2;
 /// [rad]  Bodies that turn by more in a plan spin: gyroscopic moments act on what contacts change.

@@ -243,6 +243,32 @@ void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
   by_place.add(touch.point, same);
 }
 
+/// Drops corners of the triangles of an ellipsoid beside a plane that the ellipsoid touches: they
+/// are inside of it, and another corner of the triangles is nearer.
+///
+/// @param same  [m]  planes that are less apart are one
+void drop_inner_corners(const TouchMaker& maker, double same, std::vector<ManifoldPoint>& touches) {
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (maker.placed[s].ellipsoid == nullptr) {
+      continue;
+    }
+    const auto point_of_other = [&](const ManifoldPoint& touch) -> Vector3d {
+      return touch.point + (s == 0 ? 0.5 : -0.5) * touch.gap * touch.normal;
+    };
+    const auto is_inner = [&](const ManifoldPoint& touch, const ManifoldPoint& of_ellipsoid) {
+      const Vector3d apart = point_of_other(touch) - point_of_other(of_ellipsoid);
+      return of_ellipsoid.round[s].ellipsoid != nullptr &&
+             touch.normal.dot(of_ellipsoid.normal) >= kSameNormal &&
+             std::abs(of_ellipsoid.normal.dot(apart)) <= same;
+    };
+    const std::vector<ManifoldPoint> all = touches;
+    std::erase_if(touches, [&](const ManifoldPoint& touch) {
+      return touch.round[s].ellipsoid == nullptr &&
+             std::ranges::any_of(all, [&](const auto& other) { return is_inner(touch, other); });
+    });
+  }
+}
+
 /// @param beside  [m]
 std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const TouchMaker& maker,
                                               const std::vector<Contact>& contacts, double beside) {
@@ -300,6 +326,7 @@ std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const Bod
     for (const Contact* contact : outermost) {
       keep_once(maker.make(*contact), size, by_place, touches);
     }
+    drop_inner_corners(maker, kSameGap * model.distances.least, touches);
     return touches;
   }
   for (const Contact& contact : contacts) {

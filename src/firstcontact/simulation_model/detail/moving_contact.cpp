@@ -1,6 +1,8 @@
 #include <firstcontact/simulation_model/detail/moving_contact.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -146,8 +148,9 @@ double rate_on_rim(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
   return fastest;
 }
 
-double rate_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& sides, double time) {
-  double fastest = 0.0;
+double span_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& sides, double time,
+                         double least) {
+  double longest = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < 2; ++s) {
     if (sides[s].round.ellipsoid == nullptr) {
       continue;
@@ -155,12 +158,18 @@ double rate_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& si
     const Vector3d turning = (sides[1 - s].w - sides[s].w).cross(n);  // Of n, seen from the body.
     for (const double share : {0.0, 0.5, 1.0}) {
       const Vector3d there = (n + share * time * turning).normalized();
-      const double other =
-          unlike_a_ball(*sides[s].round.ellipsoid, sides[s].R_WB.transpose() * there);
-      fastest = std::max(fastest, other * turning.norm());
+      const Vector3d n_B = sides[s].R_WB.transpose() * there;
+      const double rate = unlike_a_ball(*sides[s].round.ellipsoid, n_B) * turning.norm();
+      const double height = sides[s].round.ellipsoid->farthest(n_B).dot(n_B);
+      // The acceleration of the centre's height: its way bends by an eighth of it.
+      const double bending = height * rate * turning.norm();
+      if (rate > 0.0) {
+        longest = std::min(
+            {longest, kArmOfPlan / rate, std::sqrt(8.0 * kSagittaOfPlan * least / bending)});
+      }
     }
   }
-  return fastest;
+  return longest;
 }
 
 bool follows_curve(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,

@@ -43,12 +43,15 @@ struct MovedContact {
 /// @param n  [-]  the normal
 [[nodiscard]] double rate_on_rim(const Eigen::Vector3d& n, const std::array<ContactSide, 2>& sides);
 
-/// [1/s]  How fast a contact on an ellipsoid leaves the arm that it has, at most of three instants
-/// of a time [s]: 0 on a ball.
+/// [s]  How long a contact on an ellipsoid has nearly the arm that it has, and the way of the
+/// ellipsoid's centre is nearly a line: the least of three instants of a time [s]. Infinite on a
+/// ball.
 ///
-/// @param n  [-]  the normal
-[[nodiscard]] double rate_on_ellipsoid(const Eigen::Vector3d& n,
-                                       const std::array<ContactSide, 2>& sides, double time);
+/// @param n      [-]  the normal
+/// @param least  [m]  the contact distance
+[[nodiscard]] double span_on_ellipsoid(const Eigen::Vector3d& n,
+                                       const std::array<ContactSide, 2>& sides, double time,
+                                       double least);
 
 /// Whether a surface is curved at a contact, and the contact stays near its place on it for a time
 /// [s]: on a circle that lies nearly flat it does not.
