@@ -382,5 +382,65 @@ TEST(Ellipsoids, ThatSpinGainNoEnergy) {
   }
 }
 
+/// The energy of a body of 1 kg over 0.7 s.
+struct Energies {
+  double begin = 0.0;  // [J]
+  double end = 0.0;    // [J]
+  double gain = 0.0;   // [J]  From the least before on.
+};
+
+/// An ellipsoid that begins to lean about y on a floor.
+Energies energies_of(const std::vector<double>& radii, double lean, double step,
+                     const std::string& velocity, double friction) {
+  constexpr double kGap = 1e-4;  // [m]
+  const Vector3d around =
+      round_ellipsoid_of(make_ellipsoid({radii[0], radii[1], radii[2]}, 1e-4))->radii;
+  const double height = std::hypot(around.x() * std::sin(lean), around.z() * std::cos(lean));
+  Simulator s = test::simulator(
+      test::kFloor + R"(, {"name": "lens", "shape": {"ellipsoid": {"radii": )" +
+          test::numbers(radii) + R"(, "enclosure_error": 1e-4}}, "pose": {"position": )" +
+          test::numbers({0.0, 0.0, height + kGap}) + R"(, "rpy": )" +
+          test::numbers({0.0, lean, 0.0}) + R"(}, "dynamics": {"mass": 1, "angular_velocity": )" +
+          velocity + "}}",
+      test::settings(step, friction, kGap));
+  const std::vector<RunStep> steps =
+      test::run(s, static_cast<std::size_t>(std::lround(0.7 / step)));
+  const auto past_the_first_flat_side = steps.begin() + std::lround(0.2 / step);
+  EXPECT_EQ(test::verify(s.header(), {steps.begin(), past_the_first_flat_side}).verdict,
+            RunVerdict::proven);
+  const auto energy_of = [](const RunStep& at) { return at.kinetic_energy + at.potential_energy; };
+  Energies found{.begin = energy_of(steps[0]), .end = energy_of(steps.back())};
+  double least = found.begin;
+  for (const RunStep& at : steps) {
+    found.gain = std::max(found.gain, energy_of(at) - least);
+    least = std::min(least, energy_of(at));
+  }
+  return found;
+}
+
+/// [J]  A lift by the contact distance.
+constexpr double kLift = kGravity * 1e-4;
+
+// The contact runs over the flat side of a lens of 20:1 within half of a step. Without friction
+// the lens rocks for ever, and presses the floor all the time.
+TEST(Ellipsoids, KeepTheirEnergyOverAFlatSide) {
+  for (const std::vector<double>& radii : {std::vector<double>{0.1, 0.1, 0.005},
+                                           {0.1, 0.1, 0.01},
+                                           {0.1, 0.1, 0.02},
+                                           {0.2, 0.02, 0.02}}) {
+    for (const double step : {0.01, 0.005}) {
+      const Energies found = energies_of(radii, 1.0, step, "[0, 0, 0]", 0.0);
+      EXPECT_LE(found.gain, kLift) << radii[2] << " " << step;
+      EXPECT_GE(found.end, found.begin - 60.0 * step * step) << radii[2] << " " << step;
+    }
+  }
+}
+
+// Nor do they gain any where they slide and spin.
+TEST(Ellipsoids, FlatOnesGainNoEnergy) {
+  EXPECT_LE(energies_of({0.1, 0.1, 0.005}, 0.5, 0.01, "[0, 0, 15]", 0.0).gain, kLift);
+  EXPECT_LE(energies_of({0.1, 0.1, 0.005}, 0.5, 0.01, "[3, 20, 5]", 0.3).gain, kLift);
+}
+
 }  // namespace
 }  // namespace firstcontact::detail

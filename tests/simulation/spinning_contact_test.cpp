@@ -2,7 +2,6 @@
 // balls as tips, beside Lagrange's equations.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulated_run.h"
+#include "simulation/top.h"
 
 #include <firstcontact/record/run_step.h>
 
@@ -19,61 +19,16 @@ namespace firstcontact {
 namespace {
 
 using Eigen::Vector3d;
-using test::numbers;
+using test::kMassOfTop;
+using test::right_axis;
 using test::run;
 using test::settings;
 using test::simulator;
+using test::Top;
 
-constexpr double kMassOfTop = 0.3;  // [kg]
-constexpr double kArm = 0.1;        // [m]  From the centre of the tip to the centre of mass.
-
-struct Top {
-  std::array<double, 3> moments{5e-4, 5e-4, 6e-4};  // [kg m^2]  The last one about the axis.
-  double spin = 60.0;                               // [rad/s]
-  double lean = 0.3;                                // [rad]  About y.
-  double friction = 0.0;
-};
-
-/// A ball of 2 cm on a floor, with its centre of mass above it.
 Simulator simulation_of(const Top& top, double step, double contact_distance) {
-  const std::string body =
-      R"({"name": "top", "shape": {"sphere": {"radius": 0.02}}, "pose": {"position": )" +
-      numbers({0.0, 0.0, 0.02 + contact_distance}) + R"(, "rpy": )" +
-      numbers({0.0, top.lean, 0.0}) + R"(}, "dynamics": {"mass": )" + std::to_string(kMassOfTop) +
-      R"(, "centre_of_mass": [0, 0, 0.1], "inertia": [)" + numbers({top.moments[0], 0.0, 0.0}) +
-      ", " + numbers({0.0, top.moments[1], 0.0}) + ", " + numbers({0.0, 0.0, top.moments[2]}) +
-      R"(], "angular_velocity": )" +
-      numbers({top.spin * std::sin(top.lean), 0.0, top.spin * std::cos(top.lean)}) + "}}";
-  return simulator(test::kFloor + ", " + body, settings(step, top.friction, contact_distance));
-}
-
-/// The axis of a symmetric top whose tip slides without friction: its centre of mass goes up and
-/// down alone. Lagrange's equations for the angles of Euler, by the rule of Runge and Kutta.
-Vector3d right_axis(const Top& top, double time) {
-  const double across = top.moments[0];
-  const double about_axis = top.moments[2] * top.spin;
-  const double about_z = about_axis * std::cos(top.lean);
-  const auto rates = [&](const Vector3d& at) -> Vector3d {  // Lean, its rate, angle about z.
-    const double s = std::sin(at[0]);
-    const double c = std::cos(at[0]);
-    const double w = at[1];
-    const double round = (about_z - about_axis * c) / (across * s * s);
-    const double push = (across * round * round * c - about_axis * round +
-                         kMassOfTop * 9.81 * kArm - kMassOfTop * kArm * kArm * w * w * c) *
-                        s;
-    return {w, push / (across + kMassOfTop * kArm * kArm * s * s), round};
-  };
-  constexpr int kParts = 20000;
-  const double h = time / kParts;
-  Vector3d at(top.lean, 0.0, 0.0);
-  for (int k = 0; k < kParts; ++k) {
-    const Vector3d a = rates(at);
-    const Vector3d b = rates(at + 0.5 * h * a);
-    const Vector3d c = rates(at + 0.5 * h * b);
-    const Vector3d d = rates(at + h * c);
-    at += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-  }
-  return {std::sin(at[0]) * std::cos(at[2]), std::sin(at[0]) * std::sin(at[2]), std::cos(at[0])};
+  return simulator(test::kFloor + ", " + test::top_body(top, contact_distance),
+                   settings(step, top.friction, contact_distance));
 }
 
 TEST(SpinningContact, ATopPrecessesAsLagrangeHasIt) {
