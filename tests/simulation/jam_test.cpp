@@ -51,6 +51,8 @@ struct Chain {
   int around = 24;
   int section = 10;
   double speed = 0.05;  // [m/s]  Of the last ring; the first one is fixed.
+  double pitch = kPitch;
+  double aside = 0.0;  // [m]  The second ring is so far from the middle.
 };
 
 std::string bodies_of(const Chain& chain) {
@@ -59,9 +61,10 @@ std::string bodies_of(const Chain& chain) {
     const double s = std::sqrt(0.5);
     const std::string turn = k % 2 == 0 ? "[1, 0, 0, 0]" : numbers({s, s, 0.0, 0.0});
     const auto pose_at = [&](double x) {
-      return R"({"position": )" + numbers({x, 0.0, 0.0}) + R"(, "quaternion_wxyz": )" + turn + "}";
+      return R"({"position": )" + numbers({x, k == 1 ? chain.aside : 0.0, 0.0}) +
+             R"(, "quaternion_wxyz": )" + turn + "}";
     };
-    const double x = k * kPitch;
+    const double x = k * chain.pitch;
     const std::string pose =
         k + 1 < chain.rings
             ? R"("pose": )" + pose_at(x) + (k == 0 ? "" : R"(, "dynamics": {"density": 7800})")
@@ -107,6 +110,20 @@ TEST(Jam, AChainPulledTautLosesTimeAndIsProven) {
     EXPECT_LT(steps.back().time, taut);
     EXPECT_LE(farthest_at_once(steps), 1.1 * kContactDistance);
     EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << chain.around;
+  }
+}
+
+// By friction rings would wedge in one another up to a fifth earlier: contacts slip instead.
+TEST(Jam, AChainIsNotWedgedByFriction) {
+  for (const double aside : {0.0, 1e-6, -2e-6, 3e-6}) {
+    const Chain chain{.around = 12, .section = 6, .speed = 0.01, .pitch = 0.075, .aside = aside};
+    const double inner = 2.0 * (kRadius - kThick);
+    const double taut = 3.0 * (inner - chain.pitch - kContactDistance) / chain.speed;  // [s]
+    Simulator s = simulator(bodies_of(chain),
+                            R"("duration": 1, )" + test::settings(0.01, 0.3, kContactDistance));
+    for (int k = 0; k < static_cast<int>(0.97 * taut / 0.01); ++k) {
+      ASSERT_EQ(s.step().value().time_lost, 0.0) << aside << " " << k;
+    }
   }
 }
 

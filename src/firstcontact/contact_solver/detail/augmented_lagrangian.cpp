@@ -7,16 +7,20 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <firstcontact/contact_solver/detail/block_cholesky.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contradiction.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Matrix1d = Eigen::Matrix<double, 1, 1>;
@@ -30,6 +34,19 @@ constexpr double kPenaltyGrowth = 4.0;
 /// How exactly a round is solved: in parts of the residual before it, at last of the tolerance.
 constexpr double kPartOfResidual = 0.01;
 constexpr double kPartOfTolerance = 1e-3;
+/// [velocities]  Up to so many, rounds that bring little are solved with sliding speeds as
+/// unknowns: the matrix is full then.
+constexpr Eigen::Index kMostWithSliding = 120;
+constexpr int kMostSlidingSteps = 20;  // Of Newton's method in such a round.
+constexpr int kMostHalvings = 5;       // Of one of these steps.
+/// Where rounds end short of an answer, sweeps and such rounds go on in turn: sweeps find other
+/// places to begin at.
+constexpr int kMostTurns = 10;
+constexpr int kPatienceOfTurns = 3;  // Turns without a residual of half the best one.
+constexpr int kSweepsOfTurn = 50;
+constexpr int kRoundsOfTurn = 3;
+constexpr double kPenaltyOfTurn = 1e3;         // Of its first round...
+constexpr double kPenaltyGrowthInTurn = 10.0;  // ... which then grows.
 
 /// The augmented Lagrangian over kinetic coordinates x.
 class Lagrangian {
@@ -84,6 +101,37 @@ class Lagrangian {
     for (std::size_t k = 0; k < rows_.drives.size(); ++k) {
       drives_.add_to(hessian, k, Matrix1d(point.stiffness[k]));
     }
+  }
+
+  /// With the sliding speeds of x itself, which become those of the round. There is no value that
+  /// is least then: the gradient is 0 where the laws hold with these multipliers.
+  Point with_own_sliding(Round& round, VectorXd x) const {
+    for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
+      const Vector3d u = u_free_[k] + contacts_.times(k, x);
+      round.bias[k] = rows_.contacts[k].friction * u.tail<2>().norm();
+    }
+    return at(round, std::move(x));
+  }
+
+  /// The derivative of that gradient. It is not symmetric: sliding speeds open contacts, but no
+  /// impulse along the normal makes them slide.
+  [[nodiscard]] MatrixXd derivative_with_sliding(const Round& round, const Point& point) const {
+    MatrixXd derivative = MatrixXd::Identity(point.x.size(), point.x.size());
+    for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
+      if (point.next.contacts[k].any()) {
+        const ContactRow& row = rows_.contacts[k];
+        const Eigen::Vector2d u_t = (u_free_[k] + contacts_.times(k, point.x)).tail<2>();
+        Matrix3d opened = Matrix3d::Identity();
+        opened.block<1, 2>(0, 1) = row.friction * u_t.stableNormalized().transpose();
+        const Matrix3d D =
+            rho(round, row.greatest()) * cone_projection_derivative(point.shifted[k], row.friction);
+        contacts_.add_to(derivative, k, D * opened);
+      }
+    }
+    for (std::size_t k = 0; k < rows_.drives.size(); ++k) {
+      drives_.add_to(derivative, k, Matrix1d(point.stiffness[k]));
+    }
+    return derivative;
   }
 
  private:
@@ -162,6 +210,51 @@ int minimise(const Lagrangian& lagrangian, const Lagrangian::Round& round, doubl
   return kMostNewtonSteps;
 }
 
+/// Newton's method on the laws with sliding speeds as unknowns (P. Alart, A. Curnier, "A mixed
+/// formulation for frictional contact problems prone to Newton like solution methods", Computer
+/// Methods in Applied Mechanics and Engineering 92 (1991)). Only steps that make the gradient
+/// smaller are taken. Returns the factorisations that it took.
+int solve_with_sliding(const Lagrangian& lagrangian, double precision, Lagrangian::Round& round,
+                       Lagrangian::Point& point) {
+  point = lagrangian.with_own_sliding(round, std::move(point.x));
+  for (int step = 0; step < kMostSlidingSteps; ++step) {
+    const double gradient = point.gradient.norm();
+    if (gradient <= precision) {
+      return step;
+    }
+    VectorXd way =
+        lagrangian.derivative_with_sliding(round, point).partialPivLu().solve(-point.gradient);
+    Lagrangian::Point next = lagrangian.with_own_sliding(round, point.x + way);
+    for (int k = 0; k < kMostHalvings && !(next.gradient.norm() < gradient); ++k) {
+      way *= 0.5;
+      next = lagrangian.with_own_sliding(round, point.x + way);
+    }
+    if (!(next.gradient.norm() < gradient)) {
+      return step + 1;
+    }
+    point = std::move(next);
+  }
+  return kMostSlidingSteps;
+}
+
+/// Solves a round, one that is slow with its sliding speeds. Returns the factorisations that it
+/// took.
+int solve_round(const Lagrangian& lagrangian, double precision, bool is_slow,
+                BlockCholesky& hessian, Lagrangian::Round& round, Lagrangian::Point& point) {
+  int factorisations = 0;
+  if (is_slow && point.x.size() <= kMostWithSliding) {
+    Lagrangian::Round sliding = round;
+    Lagrangian::Point found = point;
+    factorisations = solve_with_sliding(lagrangian, precision, sliding, found);
+    if (found.gradient.norm() <= precision) {
+      round = std::move(sliding);
+      point = std::move(found);
+      return factorisations;
+    }
+  }
+  return factorisations + minimise(lagrangian, round, precision, hessian, point);
+}
+
 /// [1/kg]
 double greatest_response(const ContactRows& rows) {
   double greatest = 0.0;
@@ -174,52 +267,149 @@ double greatest_response(const ContactRows& rows) {
   return greatest;
 }
 
+/// Waits for a residual of half the best one.
+class Patience {
+ public:
+  explicit Patience(int most) : most_(most) {}
+
+  void take(double residual) {
+    ++waited_;
+    if (residual <= goal_) {
+      goal_ = 0.5 * residual;
+      waited_ = 0;
+    }
+  }
+  [[nodiscard]] bool waits() const { return waited_ > 0; }
+  [[nodiscard]] bool is_over() const { return waited_ >= most_; }
+
+ private:
+  int most_;
+  int waited_ = 0;
+  double goal_ = std::numeric_limits<double>::infinity();
+};
+
+class Multipliers {
+ public:
+  Multipliers(const ContactProblem& problem, const ContactRows& rows,
+              const ProjectionOptions& options)
+      : problem_(problem),
+        rows_(rows),
+        options_(options),
+        coordinates_(problem, rows),
+        hessian_(coordinates_.factorisation()),
+        lagrangian_(coordinates_, rows),
+        contradiction_(coordinates_, rows),
+        per_gradient_(std::sqrt(3.0 * greatest_response(rows))) {}
+
+  void solve(Projection& projection) {
+    best_ = projection;
+    best_.residual = std::numeric_limits<double>::infinity();
+    run_rounds(projection);
+    if (!is_contradiction_ && coordinates_.size() <= kMostWithSliding) {
+      take_turns();
+    }
+    projection = std::move(best_);
+    projection.iterations = factorisations_;
+  }
+
+ private:
+  [[nodiscard]] bool is_solved() const { return best_.residual <= options_.tolerance; }
+
+  void run_rounds(Projection now) {
+    Lagrangian::Round round;
+    Patience patience(kPatience);
+    VectorXd x = coordinates_.moved_by(now.impulses);
+    for (int k = 0; k < kMostRounds && !is_solved() && !patience.is_over() && !is_contradiction_;
+         ++k) {
+      set(round, now);
+      Lagrangian::Point point = lagrangian_.at(round, std::move(x));
+      factorisations_ += solve_round(lagrangian_, precision(point, now.residual), patience.waits(),
+                                     hessian_, round, point);
+      x = std::move(point.x);
+      now = after(std::move(point.next));
+      patience.take(now.residual);
+      is_contradiction_ = contradiction_.is_shown_by(now.impulses, round.bias, now.velocities);
+      round.penalty = std::min(kGreatestPenalty, kPenaltyGrowth * round.penalty);
+    }
+  }
+
+  /// Of sweeps and rounds with sliding speeds as unknowns.
+  void take_turns() {
+    Projection swept = best_;
+    Patience patience(kPatienceOfTurns);
+    for (int k = 0; k < kMostTurns && !is_solved() && !patience.is_over(); ++k) {
+      project_by_gauss_seidel(problem_, rows_,
+                              {.tolerance = options_.tolerance, .sweeps = kSweepsOfTurn}, swept);
+      keep(swept);
+      run_sliding_rounds(swept);
+      patience.take(best_.residual);
+    }
+  }
+
+  void run_sliding_rounds(Projection now) {
+    Lagrangian::Round round;
+    round.penalty = kPenaltyOfTurn;
+    for (int k = 0; k < kRoundsOfTurn && !is_solved(); ++k) {
+      set(round, now);
+      Lagrangian::Point point{.x = coordinates_.moved_by(now.impulses)};
+      factorisations_ +=
+          solve_with_sliding(lagrangian_, precision(point, now.residual), round, point);
+      const double before = now.residual;
+      now = after(std::move(point.next));
+      if (now.residual > 0.5 * before) {
+        break;
+      }
+      round.penalty = std::min(kGreatestPenalty, kPenaltyGrowthInTurn * round.penalty);
+    }
+  }
+
+  void set(Lagrangian::Round& round, const Projection& now) const {
+    round.multipliers = now.impulses;
+    round.bias.resize(rows_.contacts.size());
+    for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
+      const ContactRow& row = rows_.contacts[k];
+      round.bias[k] = row.friction * row.excess_velocity(now.velocities).tail<2>().norm();
+    }
+  }
+
+  /// Of the gradient. One of 1 changes velocities at a contact by at most the root of the trace of
+  /// its response.
+  [[nodiscard]] double precision(const Lagrangian::Point& point, double residual) const {
+    return std::max({kPartOfTolerance * options_.tolerance / per_gradient_,
+                     kPartOfResidual * residual / per_gradient_, 1e-15 * (1.0 + point.x.norm())});
+  }
+
+  Projection after(Impulses impulses) {
+    Projection now{.velocities = velocities_after(rows_, impulses),
+                   .impulses = std::move(impulses)};
+    now.residual = greatest_residual(rows_, now.impulses, now.velocities);
+    keep(now);
+    return now;
+  }
+  void keep(const Projection& now) {
+    if (now.residual < best_.residual) {
+      best_ = now;
+    }
+  }
+
+  const ContactProblem& problem_;
+  const ContactRows& rows_;
+  const ProjectionOptions& options_;
+  MassWhitenedCoordinates coordinates_;
+  BlockCholesky hessian_;
+  Lagrangian lagrangian_;
+  Contradiction contradiction_;
+  double per_gradient_;  // [m/s]
+  Projection best_ = {};
+  bool is_contradiction_ = false;
+  int factorisations_ = 0;
+};
+
 }  // namespace
 
 void project_by_augmented_lagrangian(const ContactProblem& problem, const ContactRows& rows,
                                      const ProjectionOptions& options, Projection& projection) {
-  MassWhitenedCoordinates coordinates(problem, rows);
-  auto hessian = coordinates.factorisation();
-  const Lagrangian lagrangian(coordinates, rows);
-  Lagrangian::Round round;
-  round.multipliers = projection.impulses;
-  round.bias.assign(rows.contacts.size(), 0.0);
-  VectorXd x = coordinates.moved_by(projection.impulses);
-  VectorXd V = projection.velocities;
-  // A gradient of 1 changes velocities at a contact by at most the root of the trace of its
-  // response.
-  const double per_gradient = std::sqrt(3.0 * greatest_response(rows));
-  double residual = projection.residual;
-  double least = std::numeric_limits<double>::infinity();
-  double goal = least;  // What the next rounds have to reach.
-  int waited = 0;
-  int factorisations = 0;
-  for (int k = 0; k < kMostRounds && least > options.tolerance && waited < kPatience; ++k) {
-    for (std::size_t i = 0; i < rows.contacts.size(); ++i) {
-      const ContactRow& row = rows.contacts[i];
-      round.bias[i] = row.friction * row.excess_velocity(V).tail<2>().norm();
-    }
-    Lagrangian::Point point = lagrangian.at(round, std::move(x));
-    const double precision =
-        std::max({kPartOfTolerance * options.tolerance / per_gradient,
-                  kPartOfResidual * residual / per_gradient, 1e-15 * (1.0 + point.x.norm())});
-    factorisations += minimise(lagrangian, round, precision, hessian, point);
-    x = std::move(point.x);
-    round.multipliers = std::move(point.next);
-    V = velocities_after(rows, round.multipliers);
-    residual = greatest_residual(rows, round.multipliers, V);
-    ++waited;
-    if (residual <= goal) {
-      goal = 0.5 * residual;
-      waited = 0;
-    }
-    if (residual < least) {
-      least = residual;
-      projection = {V, round.multipliers, residual, factorisations};
-    }
-    round.penalty = std::min(kGreatestPenalty, kPenaltyGrowth * round.penalty);
-  }
-  projection.iterations = factorisations;
+  Multipliers(problem, rows, options).solve(projection);
 }
 
 }  // namespace firstcontact::detail

@@ -10,8 +10,9 @@ namespace firstcontact::detail {
 
 /// Minimises the kinetic distance from the free velocities with an augmented Lagrangian: rounds of
 /// multipliers, each solved by Newton's steps on sparse factorisations. As in the interior point,
-/// mu |u_t| is what it was after the round before. Takes no sweeps, and no loss where masses differ
-/// greatly.
+/// mu |u_t| is what it was after the round before. Where that converges slowly and bodies are few,
+/// sliding speeds are unknowns, too. Loses nothing where masses differ greatly. Contacts that
+/// contradict one another end it early.
 ///
 /// @param rows        of the problem
 /// @param projection  where to start from; afterwards nearer to the laws, if it changed

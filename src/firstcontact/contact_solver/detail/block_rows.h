@@ -80,6 +80,16 @@ class BlockRows {
     }
   }
 
+  /// The same to a full matrix, with any D.
+  void add_to(Eigen::MatrixXd& matrix, std::size_t row, const Square& D) const {
+    for (const Entry& b : of(row)) {
+      const Eigen::Matrix<double, rows, 6> DG = D * b.G;
+      for (const Entry& a : of(row)) {
+        matrix.block<6, 6>(a.in_x, b.in_x).noalias() += a.G.transpose() * DG;
+      }
+    }
+  }
+
  private:
   struct Entry {
     Eigen::Index in_x;

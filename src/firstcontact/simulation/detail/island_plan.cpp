@@ -310,7 +310,7 @@ Plan IslandPlanner::plan() {
   Plan made{.at_end = solution.bodies,
             .residual = solution.residual,
             .is_limited = last_->is_limited,
-            .is_solved = is_solved(state_, solution)};
+            .is_solved = last_->slips || is_solved(state_, solution)};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
   const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&

@@ -78,6 +78,27 @@ std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem
   return yielding;
 }
 
+/// Whether scripts push an island. One that stood still in the step before does not count: what it
+/// would push is jammed.
+bool is_pushed(const IslandState& state, const ContactProblem& problem) {
+  const auto around = problem.bodies.begin() + static_cast<std::ptrdiff_t>(state.size());
+  return std::ranges::find(state.start.waited, true) == state.start.waited.end() &&
+         std::any_of(around, problem.bodies.end(),
+                     [](const ContactBody& body) { return body.v.any() || body.w.any(); });
+}
+
+/// The problem with contacts that slip. Nothing where none has friction.
+std::optional<ContactProblem> with_slippery_contacts(const ContactProblem& problem) {
+  ContactProblem slippery = problem;
+  bool has_friction = false;
+  for (ContactPoint& contact : slippery.contacts) {
+    has_friction = has_friction || contact.friction > 0.0;
+    contact.friction *= kSlippery;
+    contact.guess.setZero();
+  }
+  return has_friction ? std::optional(std::move(slippery)) : std::nullopt;
+}
+
 /// Whether nothing outside acts on an island through contacts, and nothing holds a part of it.
 bool is_isolated(const IslandState& state, const ContactProblem& problem) {
   const auto is_set = [](bool lock) { return lock; };
@@ -264,12 +285,8 @@ bool stands(const IslandState& state) {
   return true;
 }
 
-PlanSolution project_with(const IslandState& state, const ContactProblem& problem,
-                          const ProjectionOptions& options,
-                          std::optional<double> free = std::nullopt) {
-  if (problem.contacts.empty() && problem.drives.empty() && problem.ties.empty()) {
-    return {unchanged(problem)};
-  }
+PlanSolution project_with_motors(const IslandState& state, const ContactProblem& problem,
+                                 const ProjectionOptions& options, std::optional<double> free) {
   PlanSolution plan{project_on_contacts(problem, options)};
   if (!is_solved(state, plan.velocities)) {
     if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
@@ -277,6 +294,29 @@ PlanSolution project_with(const IslandState& state, const ContactProblem& proble
     }
   }
   plan.is_limited = limit_energy(state, problem, plan.velocities, free);
+  return plan;
+}
+
+PlanSolution project_with(IslandState& state, const ContactProblem& problem,
+                          const ProjectionOptions& options,
+                          std::optional<double> free = std::nullopt) {
+  if (problem.contacts.empty() && problem.drives.empty() && problem.ties.empty()) {
+    return {unchanged(problem)};
+  }
+  PlanSolution plan = project_with_motors(state, problem, options, free);
+  if (is_solved(state, plan.velocities) || state.slips >= kMostSlips ||
+      !is_pushed(state, problem)) {
+    return plan;
+  }
+  if (const std::optional<ContactProblem> slippery = with_slippery_contacts(problem)) {
+    ++state.slips;
+    PlanSolution slipping = project_with_motors(state, *slippery, options, free);
+    if (is_solved(state, slipping.velocities)) {
+      slipping.velocities.residual = contact_residual(problem, slipping.velocities);
+      slipping.slips = true;
+      return slipping;
+    }
+  }
   return plan;
 }
 
@@ -326,12 +366,12 @@ ProjectionOptions plan_options(const IslandState& state, const ContactProblem& p
   return options;
 }
 
-PlanSolution project_plan(const IslandState& state, const ContactProblem& problem,
+PlanSolution project_plan(IslandState& state, const ContactProblem& problem,
                           std::optional<double> free) {
   return project_with(state, problem, plan_options(state, problem), free);
 }
 
-PlanSolution project_way(const IslandState& state, const ContactProblem& problem, double span) {
+PlanSolution project_way(IslandState& state, const ContactProblem& problem, double span) {
   ProjectionOptions options = plan_options(state, problem);
   options.tolerance =
       std::max(options.tolerance, kToleranceOfWay * state.model.distances.least / span);

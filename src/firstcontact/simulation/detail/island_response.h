@@ -29,19 +29,22 @@ struct IslandState;
 struct PlanSolution {
   ContactSolution velocities;
   bool is_limited = false;  ///< They are shorter than contacts would have them.
+  bool slips = false;       ///< Contacts have less friction than they should; `residual` tells.
 };
 
 /// [J]  Of the free velocities of a plan.
 [[nodiscard]] double free_energy(const IslandState& state, const ContactProblem& problem);
 
-/// The free velocities of a plan as contacts and drives allow them.
+/// The free velocities of a plan as contacts and drives allow them. Where scripts wedge bodies and
+/// friction alone leaves no solution, contacts slip, in the first few plans of a step.
 ///
 /// @param free  [J]  Contacts may not lead beyond it; by default free_energy()
-[[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem,
+[[nodiscard]] PlanSolution project_plan(IslandState& state, const ContactProblem& problem,
                                         std::optional<double> free = std::nullopt);
 
-/// Velocities that lead along the way of a plan: as exactly as its displacements need.
-[[nodiscard]] PlanSolution project_way(const IslandState& state, const ContactProblem& problem,
+/// Velocities that lead along the way of a plan: as exactly as its displacements need. They slip as
+/// those of project_plan() do.
+[[nodiscard]] PlanSolution project_way(IslandState& state, const ContactProblem& problem,
                                        double span);
 
 /// Those of a plan that is like another but for contacts that changed, by re_solve(). Nothing

@@ -111,6 +111,7 @@ struct IslandState {
   std::unordered_map<std::size_t, Pose> poses_around;  ///< Of those asked for, now.
   std::vector<std::size_t> ties = {};                  ///< Of the model, that have a member.
   std::size_t taut = 0;                                ///< Cables that became taut in the step.
+  std::size_t slips = 0;  ///< Solutions of the step in which contacts slipped.
 };
 
 inline Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double by) {

@@ -116,6 +116,11 @@ inline constexpr std::size_t kMostCrushed = 8;
 inline constexpr std::size_t kMostCrushedAgain = 1;
 /// [impacts]  Nor has such a script more of them in a step.
 inline constexpr std::size_t kMostEventsAgain = 20;
+/// [-]  Contacts slip with this part of their friction where scripts leave no solution with all of
+/// it...
+inline constexpr double kSlippery = 0.3;
+/// [solutions]  ...in so many of a step. Larger: a jam takes longer.
+inline constexpr std::size_t kMostSlips = 8;
 /// [-]  A step is lost if it lasted less than this, by what is lost of it.
 inline constexpr double kLostOfStep = 1e-2;
 /// [-]  A stall, by the step.
