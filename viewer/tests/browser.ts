@@ -153,7 +153,11 @@ declare global {
   interface Window {
     firstcontact: {
       model: { bodies: { name: string }[] };
-      player: { t: { value: number }; playing: { value: boolean }; seek(t: number): void };
+      player: {
+        t: { value: number };
+        playing: { value: boolean; subscribe(listener: () => void): void };
+        seek(t: number): void;
+      };
       display: { hidden: { value: Set<number> } };
       view: {
         bodies: {
