@@ -158,7 +158,8 @@ class Island {
 
   /// [s]  In which a contact on a rim stays near its place on it, and one on an ellipsoid has
   /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count. Over
-  /// the flat side of an ellipsoid it runs fast for a short time: plans are a hundredth of a step.
+  /// the flat side of an ellipsoid it runs fast for a short time. A body that no other one moves
+  /// with has plans of a hundredth of a step there: of several they would take too long.
   [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
     double longest = std::numeric_limits<double>::infinity();
     if (!touch.round[0].is_curved() && !touch.round[1].is_curved()) {
@@ -172,7 +173,9 @@ class Island {
     }
     const double on_ellipsoid =
         span_on_ellipsoid(touch.normal, sides, span_, state_.model.distances.least);
-    return std::min(longest, std::max(on_ellipsoid, kLeastShareOfFast * state_.start.h));
+    const bool is_alone = state_.size() == 1;
+    const double least = is_alone ? kLeastShareOfFast * state_.start.h : shortest;
+    return std::min(longest, std::max(on_ellipsoid, least));
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until

@@ -183,8 +183,9 @@ inline constexpr double kTurnOnCorner = 0.01;
 /// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth
 /// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;
-/// [-]  And, down to a hundredth of a step, so short that the arm of a contact on an ellipsoid
-/// changes by no more, by its length. Larger: flat or long ellipsoids gain energy.
+/// [-]  And so short that the arm of a contact on an ellipsoid changes by no more, by its length:
+/// down to a tenth of a step, of an island of one body to a hundredth. Larger: flat or long
+/// ellipsoids gain energy.
 inline constexpr double kArmOfPlan = 0.05;
 /// [-]  And so short that the way of the ellipsoid's centre bends by no more, by the contact
 /// distance. Larger: within a plan its triangles come nearer than both ends have them.
