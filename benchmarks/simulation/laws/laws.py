@@ -44,6 +44,8 @@ ROWS = [
     ("block slides down 17 degrees, friction 0.2, 1 s", "place", "m", SMOOTH, contacts.sliding_down),
     ("rod of 1 m slides on its end, 0.4 s", "lean", "rad", SMOOTH, contacts.rod_on_its_end),
     ("top on its tip, 60 rad/s, 1 s", "axis", "rad", SMOOTH, contacts.top_on_its_tip),
+    ("the same on the tray of a robot", "axis", "rad", SMOOTH,
+     lambda tool, step: contacts.top_on_its_tip(tool, step, is_on_robot=True)),
     ("disc goes round on its rim, 0.3 s", "energy", "part", SMOOTH, contacts.disc_on_its_rim, 1e-6),
     ("ring of 180 corners swings on a pin, 1 s", "energy", "part", SMOOTH, contacts.ring_on_a_pin, 3e-4),
     ("ellipsoid rocks, 1 s", "lean", "rad", SMOOTH, contacts.rocking_ellipsoid),

@@ -2,8 +2,8 @@
 
 import math
 
-from law_scenes import (G, NEAR, around_globe, ball, body, box, energy, is_ours, leaning, runge_kutta, scene, simulate,
-                        tube, turned)
+from law_scenes import (G, NEAR, NotForPeer, around_globe, ball, body, box, energy, is_ours, leaning, runge_kutta,
+                        scene, simulate, tube, turned)
 
 
 def turntable(tool, step):
@@ -141,14 +141,25 @@ def rod_on_its_end(tool, step):
     return abs(math.atan2(x, z) - runge_kutta(rates, [lean, 0.0], 0.4)[0])
 
 
-def top_on_its_tip(tool, step):
-    """How far the axis of a top gets from the right one within 1 s, which spins at 60 rad/s without friction."""
+TRAY = """<robot name="lift"><link name="base"/><link name="tray">
+  <inertial><mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><origin xyz="0 0 -0.05"/><geometry><box size="2 2 0.1"/></geometry></collision></link>
+  <joint name="lift" type="prismatic"><parent link="base"/><child link="tray"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="1" effort="0" velocity="9"/></joint></robot>"""
+
+
+def top_on_its_tip(tool, step, is_on_robot=False):
+    """How far the axis of a top gets from the right one within 1 s, which spins at 60 rad/s without friction. On a
+    floor, or on a tray that the motor of a robot holds."""
     mass, arm, across, along, spin, lean = 0.3, 0.1, 5e-4, 6e-4, 60.0, 0.3
-    run = simulate(tool, scene([FLOOR, body(
-        "top", ball(0.02), (0, 0, 0.02001), quaternion_wxyz=leaning(lean), dynamics={
-            "mass": mass, "centre_of_mass": [0, 0, arm], "inertia": [[across, 0, 0], [0, across, 0], [0, 0, along]],
-            "angular_velocity": [spin * math.sin(lean), 0, spin * math.cos(lean)]})],
-        1.0, step, contact_distance=1e-5))
+    top = body("top", ball(0.02), (0, 0, 0.02001), quaternion_wxyz=leaning(lean), dynamics={
+        "mass": mass, "centre_of_mass": [0, 0, arm], "inertia": [[across, 0, 0], [0, across, 0], [0, 0, along]],
+        "angular_velocity": [spin * math.sin(lean), 0, spin * math.cos(lean)]})
+    if is_on_robot and not is_ours(tool):
+        raise NotForPeer
+    robot = {"name": "lift", "urdf": "lift.urdf", "dynamics": {"base": "fixed", "motors": {"lift": {"position": 0}}}}
+    run = simulate(tool, scene([top] if is_on_robot else [FLOOR, top], 1.0, step, contact_distance=1e-5,
+                               **({"robots": [robot]} if is_on_robot else {})), [("lift.urdf", TRAY)])
     about_axis = along * spin
     about_z = about_axis * math.cos(lean)
 
@@ -162,7 +173,7 @@ def top_on_its_tip(tool, step):
     for tenth in range(1, 11):
         state = runge_kutta(rates, state, 0.1, 2000)
         right = [math.sin(state[0]) * math.cos(state[2]), math.sin(state[0]) * math.sin(state[2]), math.cos(state[0])]
-        found = turned(run.body(1, 0.1 * tenth)["quaternion_wxyz"], [0, 0, 1])
+        found = turned(run.body(0 if is_on_robot else 1, 0.1 * tenth)["quaternion_wxyz"], [0, 0, 1])
         worst = max(worst, math.dist(found, right))
     return worst
 
