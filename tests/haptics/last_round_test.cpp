@@ -24,6 +24,7 @@ HapticTouch touch_below(double gap, std::uint32_t vertex) {
   touch.contact.tool = 0;
   touch.contact.other = -1;
   touch.contact.body = 0;
+  touch.members = {1, 0};
   touch.feature_of_other = {FeatureType::face, 7, 7};
   touch.feature_of_tool = {FeatureType::vertex, vertex, 3};
   return touch;

@@ -1,5 +1,6 @@
 #include <firstcontact/haptic_devices/device.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -36,11 +37,21 @@ std::int64_t steady_now_ns() noexcept {
 }
 
 ForceCommand limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept {
-  if (!command.force_D.allFinite() || !command.torque_D.allFinite()) {
+  const bool are_finite = std::all_of(command.grips.begin(), command.grips.end(),
+                                      [](double effort) { return std::isfinite(effort); });
+  if (!command.force_D.allFinite() || !command.torque_D.allFinite() || !are_finite) {
     return {};
   }
-  return {limited_part(command.force_D, capabilities.driven.linear, capabilities.max_force),
+  ForceCommand allowed{
+      .force_D = limited_part(command.force_D, capabilities.driven.linear, capabilities.max_force),
+      .torque_D =
           limited_part(command.torque_D, capabilities.driven.angular, capabilities.max_torque)};
+  const double most = capabilities.max_grip_effort;
+  for (std::size_t k = 0; k < kMostGrips; ++k) {
+    const bool is_driven = most > 0.0 && static_cast<int>(k) < capabilities.grips;
+    allowed.grips[k] = is_driven ? std::clamp(command.grips[k], -most, most) : 0.0;
+  }
+  return allowed;
 }
 
 }  // namespace firstcontact

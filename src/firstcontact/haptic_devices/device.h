@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -20,6 +21,9 @@ enum class DeviceKind {
   pose,  ///< The handle is at a place: `DeviceState::X_DH`.
   rate,  ///< A deflected cap sets velocities: `DeviceState::linear_rate`, `angular_rate`.
 };
+
+/// [values]  A device senses at most so many of the fingers of a hand.
+inline constexpr std::size_t kMostGrips = 16;
 
 /// Its words in files and messages, in this order.
 inline constexpr std::array<const char*, 2> kDeviceKindWords{"pose", "rate"};
@@ -47,11 +51,13 @@ struct DeviceCapabilities {
   DegreesOfFreedom sensed;  ///< The others stay at the identity, or at rate 0.
   DegreesOfFreedom driven;  ///< Components of a command along the others are dropped.
   int buttons = 0;          ///< At most 32.
+  int grips = 0;            ///< At most kMostGrips: values of `DeviceState::grips` that it senses.
 
   double max_force = 0.0;              ///< [N]          Greatest length of the force vector.
   double max_torque = 0.0;             ///< [N m]        Greatest length of the torque vector.
   double max_stiffness = 0.0;          ///< [N/m]
   double max_angular_stiffness = 0.0;  ///< [N m/rad]
+  double max_grip_effort = 0.0;        ///< [J]          Of each grip; 0 where none is driven.
   double max_damping = 0.0;            ///< [N s/m]
   double max_angular_damping = 0.0;    ///< [N m s/rad]
 
@@ -103,6 +109,9 @@ struct DeviceState {
   std::int64_t time_ns = 0;
   /// Counts the samples. The same number is the same sample; a jump shows how many were missed.
   std::uint64_t sequence = 0;
+  /// [-]  How far fingers are bent, or a gripper is closed: 0 open, 1 closed. A value may go
+  /// beyond.
+  std::array<double, kMostGrips> grips{};
   /// Bit i is set while button i is pressed.
   std::uint32_t buttons = 0;
   DeviceStatus status = DeviceStatus::waiting;
@@ -112,6 +121,9 @@ struct DeviceState {
 struct ForceCommand {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]    At the origin of H, axes of D.
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]  About the origin of H, axes of D.
+  /// [J]  On each grip: work by its value, so that below 0 it opens. Where a finger goes by s
+  /// metres from 0 to 1, a force of effort / s.
+  std::array<double, kMostGrips> grips{};
 };
 
 /// Counts of the events since a device was opened.
@@ -174,7 +186,8 @@ class FIRSTCONTACT_API Device {
 [[nodiscard]] FIRSTCONTACT_API std::int64_t steady_now_ns() noexcept;
 
 /// Limits a command to what the device drives: components along other axes are 0, the lengths are
-/// at most `max_force` and `max_torque`. A force or torque that is not finite makes both 0.
+/// at most `max_force` and `max_torque`, efforts of grips at most `max_grip_effort`. A number that
+/// is not finite makes all 0.
 [[nodiscard]] FIRSTCONTACT_API ForceCommand
 limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept;
 

@@ -44,6 +44,8 @@ ContactLoop::Implementation::Implementation(HapticScene scene, const ContactLoop
   detail::require_haptic(options.most_contacts > 0 && options.most_contacts <= kMostHapticContacts,
                          "ContactLoopOptions::most_contacts must be in 1 to 128");
   begin_members();
+  begin_links();
+  begin_pairs();
   require_start();
   set_frames();
   find_contacts();
@@ -78,22 +80,37 @@ void ContactLoop::Implementation::begin_members() {
                          "the contact distance is too small to be proven at coordinates of " +
                              std::to_string(extent) + " m");
   finder_ = detail::ContactFinder(distance_);
+}
+
+void ContactLoop::Implementation::begin_pairs() {
   courses_.resize(members_.size());
+  ways_.resize(members_.size());
   for (detail::HapticMember& member : members_) {
     member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(
         member.shape, detail::kSlackOfNeighbours * distance_);
   }
+  const auto add = [&](std::size_t other, std::size_t tool) {
+    const auto is_this = [&](const std::array<std::size_t, 2>& pair) {
+      return std::minmax(pair[0], pair[1]) == std::minmax(tool, other);
+    };
+    if (!std::ranges::any_of(scene_.ignored_pairs, is_this)) {
+      pairs_.push_back({.members = {other, tool},
+                        .gap = 0.0,
+                        .may_be_far = std::max(tool, other) >= first_link()});
+    }
+  };
   for (std::size_t tool = 0; tool < tools(); ++tool) {
-    for (std::size_t other = tool + 1; other < members_.size(); ++other) {
-      const auto is_this = [&](const std::array<std::size_t, 2>& pair) {
-        return std::minmax(pair[0], pair[1]) == std::minmax(tool, other);
-      };
-      if (std::ranges::any_of(scene_.ignored_pairs, is_this)) {
-        continue;
-      }
+    for (std::size_t other = tool + 1; other < first_link(); ++other) {
       // The first tool is the other member of a pair of tools.
-      pairs_.push_back({.members = {other < tools() ? tool : other, other < tools() ? other : tool},
-                        .gap = 0.0});
+      add(other < tools() ? tool : other, other < tools() ? other : tool);
+    }
+  }
+  for (std::size_t link = first_link(); link < members_.size(); ++link) {
+    for (std::size_t other = 0; other < link; ++other) {
+      const bool is_same = tool_of(other) == tool_of(link);
+      if (!is_same || !links_.are_joined(link_of(other), link_of(link))) {
+        add(other, link);
+      }
     }
   }
 }
@@ -124,6 +141,19 @@ void ContactLoop::Implementation::set_frames() {
     frames_.lengths[k] = std::sqrt(coupling.angular_stiffness / coupling.stiffness);
     frames_.weights[k] = std::sqrt(coupling.stiffness / scene_.tools[0].coupling.stiffness);
   }
+  set_link_frames();
+}
+
+/// Names the members of a touch.
+void ContactLoop::Implementation::number(HapticTouch& touch, std::size_t other,
+                                         std::size_t tool) const {
+  touch.members = {other, tool};
+  HapticContact& contact = touch.contact;
+  contact.tool = static_cast<std::int32_t>(tool_of(tool));
+  contact.link = static_cast<std::int32_t>(link_of(tool));
+  contact.other = static_cast<std::int32_t>(tool_of(other));
+  contact.other_link = static_cast<std::int32_t>(link_of(other));
+  contact.body = is_body(other) ? static_cast<std::int32_t>(other - tools()) : -1;
 }
 
 void ContactLoop::Implementation::find_contacts() {
@@ -138,14 +168,17 @@ void ContactLoop::Implementation::find_contacts() {
   }
   for (detail::HapticPair& pair : pairs_) {
     const auto [other, tool] = pair.members;
+    if (pair.may_be_far && detail::are_far(members_[other], poses_[other], members_[tool],
+                                           poses_[tool], detail::kContactBand * distance_)) {
+      pair.gap = detail::kInfinite;
+      continue;
+    }
     const std::size_t first = touches_.size();
     pair.gap = finder_.find(members_[other], *placed_[other], members_[tool], *placed_[tool],
                             pair.front, touches_);
     for (std::size_t k = first; k < touches_.size(); ++k) {
+      number(touches_[k], other, tool);
       HapticContact& contact = touches_[k].contact;
-      contact.tool = static_cast<std::int32_t>(tool);
-      contact.other = other < tools() ? static_cast<std::int32_t>(other) : -1;
-      contact.body = other < tools() ? -1 : static_cast<std::int32_t>(other - tools());
       contact.way = std::max(0.0, contact.gap - detail::kRestGap * distance_);
     }
   }
@@ -161,10 +194,11 @@ ContactLoop& ContactLoop::operator=(ContactLoop&&) noexcept = default;
 const HapticScene& ContactLoop::scene() const { return implementation_->scene_; }
 double ContactLoop::contact_distance() const { return implementation_->distance_; }
 double ContactLoop::time() const { return implementation_->time_; }
+std::span<const double> ContactLoop::joints() const { return implementation_->joints_; }
 const Pose& ContactLoop::pose(std::size_t member) const {
   return implementation_->poses_.at(member);
 }
-const HapticCycle& ContactLoop::advance(std::span<const Pose> targets, double dt,
+const HapticCycle& ContactLoop::advance(const HapticTargets& targets, double dt,
                                         std::int64_t stamp_ns,
                                         const std::optional<Deadline>& deadline) {
   return implementation_->advance(targets, dt, stamp_ns, deadline);

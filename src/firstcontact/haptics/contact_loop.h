@@ -24,7 +24,7 @@ namespace firstcontact {
 /// A piece of a cycle at constant rates: the pivot of a body moves on a line, the body turns about
 /// it (Motion::constant_rates).
 ///
-/// The pivot of a tool is its centre, that of another body its origin.
+/// The pivot of a tool is its centre, that of a link or another body its origin.
 struct HapticPiece {
   double to = 0.0;                                        ///< [s]  Its end, since the cycle began.
   Pose X_WB;                                              ///< Where it begins.
@@ -32,7 +32,8 @@ struct HapticPiece {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World axes.
 };
 
-/// How a tool or a body with a course moved in a cycle. Members are the tools, then the bodies.
+/// How a tool, a link of it or a body with a course moved in a cycle. Members are the tools, then
+/// the bodies, then the links that have a shape.
 struct HapticMemberMotion {
   std::size_t member = 0;
   std::vector<HapticPiece> pieces = {};  ///< They end with the cycle.
@@ -44,6 +45,7 @@ struct HapticTouch {
   HapticContact contact;
   Feature feature_of_other;
   Feature feature_of_tool;
+  std::array<std::size_t, 2> members = {};  ///< The other one, then the tool or its link.
 };
 
 /// The account of a cycle of the contact loop.
@@ -62,6 +64,12 @@ struct HapticCycle {
   std::vector<HapticTouch> touches = {};  ///< At its end; those that the contact set lists.
 };
 
+/// Where devices want the tools.
+struct HapticTargets {
+  std::span<const Pose> poses;     ///< X_WB of each tool, finite.
+  std::span<const double> joints;  ///< [rad or m]  Of all tools, finite; empty: as they are.
+};
+
 struct ContactLoopOptions {
   std::size_t rounds = 10;  ///< > 0  Projections in a cycle, at most.
   /// [-]  >= 0  A further round is not made where it gains less than this part of the springs'
@@ -77,6 +85,11 @@ struct ContactLoopOptions {
 /// principle without inertia, with Coulomb friction), until the first contact of its in-between
 /// motion, and on from there. Each motion is proven apart from everything at a distance that is
 /// kept. Where bodies with a course would squeeze a tool, time ends for them: HapticCycle::lasted.
+///
+/// The coordinates of a tool with joints are its pose and those of its joints, each with its own
+/// spring. Its links are members of their own. Each moves at constant rates, so a joint opens while
+/// it turns, and is closed at the end of the piece. A piece is so short that it opens by less than
+/// a contact distance. What is proven, and recorded, is how the links move.
 ///
 /// Source: M. Ortega, S. Redon, S. Coquillart, "A six degree-of-freedom god-object method for
 /// haptic display of rigid bodies with surface properties", IEEE Transactions on Visualization and
@@ -100,16 +113,21 @@ class FIRSTCONTACT_API ContactLoop {
   [[nodiscard]] double contact_distance() const;  ///< [m]
   [[nodiscard]] double time() const;              ///< [s]  For which the surroundings moved.
   [[nodiscard]] const Pose& pose(std::size_t member) const;
+  [[nodiscard]] std::span<const double> joints() const;  ///< [rad or m]  Of all tools.
 
   /// Runs a cycle. The result holds until the next one.
   ///
-  /// @param targets   X_WB of each tool, finite
+  /// @param targets   of each tool; joints go no farther than their limits
   /// @param dt        [s]  > 0; the surroundings move for so long
   /// @param stamp_ns  [ns]  goes into the contact set of this cycle
   /// @param deadline  no round begins after it; a search that runs then stops with what is proven
   /// @throws std::invalid_argument if an argument is outside its range
-  const HapticCycle& advance(std::span<const Pose> targets, double dt, std::int64_t stamp_ns,
+  const HapticCycle& advance(const HapticTargets& targets, double dt, std::int64_t stamp_ns,
                              const std::optional<Deadline>& deadline = {});
+  const HapticCycle& advance(std::span<const Pose> targets, double dt, std::int64_t stamp_ns,
+                             const std::optional<Deadline>& deadline = {}) {
+    return advance(HapticTargets{.poses = targets, .joints = {}}, dt, stamp_ns, deadline);
+  }
 
   /// The contacts at the end of the last cycle, or at the start.
   [[nodiscard]] const HapticContactSet& contact_set() const;

@@ -56,6 +56,15 @@ std::uint64_t checksum_of(const HapticContactSet& set) noexcept {
     mixer.add(contact.way);
     mixer.add(contact.friction);
     mixer.add(contact.surface_velocity);
+    mixer.add((word_of(contact.link) << 32) | word_of(contact.other_link));
+  }
+  mixer.add((std::uint64_t{set.joint_count} << 32) | set.link_count);
+  for (std::size_t k = 0; k < set.joint_count && k < kMostHapticJoints; ++k) {
+    mixer.add(set.joints[k]);
+  }
+  for (std::size_t k = 0; k < set.link_count && k < kMostHapticLinks; ++k) {
+    mixer.add(set.axes[k].point);
+    mixer.add(set.axes[k].direction);
   }
   return mixer.take();
 }

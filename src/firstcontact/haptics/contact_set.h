@@ -20,11 +20,23 @@ inline constexpr std::size_t kMostTools = 2;
 /// [contacts]  A published set has at most so many.
 inline constexpr std::size_t kMostHapticContacts = 128;
 
-/// A place where a tool touches the surroundings or the other tool.
+/// [joints]  The tools of a session have at most so many joints that move, all together.
+inline constexpr std::size_t kMostHapticJoints = 24;
+
+/// [links]  The tools of a session have at most so many links, all together.
+inline constexpr std::size_t kMostHapticLinks = 64;
+
+/// The axis of the joint that moves a link.
+struct HapticAxis {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< [m]  World, on the axis.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< [-]  Unit, world.
+};
+
+/// A place where a tool touches the surroundings, the other tool or itself.
 struct HapticContact {
   std::int32_t tool = 0;    ///< The normal points to it.
-  std::int32_t other = -1;  ///< The other tool; -1 for the surroundings.
-  std::int32_t body = -1;   ///< The number among the surroundings; -1 for the other tool.
+  std::int32_t other = -1;  ///< The other tool, or the same; -1 for the surroundings.
+  std::int32_t body = -1;   ///< The number among the surroundings; -1 for a tool.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  Unit, world.
   double gap = 0.0;                                   ///< [m]  Between the surfaces; > 0.
@@ -32,6 +44,8 @@ struct HapticContact {
   double friction = 0.0;  ///< [-]  Coulomb's coefficient; >= 0.
   /// [m/s]  Velocity of the point of the surroundings; 0 for the other tool.
   Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();
+  std::int32_t link = -1;        ///< Of the tool, among the links of all tools; -1: its body.
+  std::int32_t other_link = -1;  ///< The same of the other tool.
 };
 
 /// The set that the contact loop publishes: where the god-objects are, and what holds them.
@@ -49,7 +63,11 @@ struct HapticContactSet {
   std::array<Pose, kMostTools> X_WB = {};             ///< Of the god-objects.
   std::array<Eigen::Vector3d, kMostTools> p_WC = {};  ///< [m]  Their centres.
   std::array<HapticContact, kMostHapticContacts> contacts = {};
-  std::uint64_t checksum = 0;  ///< checksum_of() the rest.
+  std::uint32_t joint_count = 0;  ///< Of all tools, in their order.
+  std::uint32_t link_count = 0;
+  std::array<double, kMostHapticJoints> joints = {};   ///< [rad or m]  Of the god-objects.
+  std::array<HapticAxis, kMostHapticLinks> axes = {};  ///< Of the links' joints.
+  std::uint64_t checksum = 0;                          ///< checksum_of() the rest.
 };
 
 /// A number that almost certainly changes where a set is torn: of all but its own field.

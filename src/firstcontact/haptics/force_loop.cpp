@@ -5,10 +5,13 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
+#include <firstcontact/haptics/detail/grip_follower.h>
 #include <firstcontact/haptics/detail/target_follower.h>
+#include <firstcontact/haptics/detail/tool_links.h>
 
 namespace firstcontact {
 namespace {
@@ -56,10 +59,15 @@ void check_options(const HapticScene& scene, const std::vector<DeviceMapping>& m
     require(mapping.clutch_button < 32 && mapping.dead_man_button < 32,
             "DeviceMapping: a device has at most 32 buttons");
   }
+  for (std::size_t k = 0; k < mappings.size(); ++k) {
+    detail::check_grips(mappings[k].grips, scene.tools[k]);
+  }
   const HapticLimits& limits = options.limits;
   require(limits.force >= 0.0 && is_positive_number(1.0 + limits.force) && limits.torque >= 0.0 &&
               is_positive_number(1.0 + limits.torque),
           "HapticLimits: force and torque must be >= 0");
+  require(limits.grip_effort >= 0.0 && is_positive_number(1.0 + limits.grip_effort),
+          "HapticLimits::grip_effort must be >= 0");
   require(is_positive_number(limits.force_slew) && is_positive_number(limits.torque_slew),
           "HapticLimits: slews must be > 0");
   require(limits.fresh_ns >= 0 && limits.stale_ns >= limits.fresh_ns && limits.ramp_ns >= 0,
@@ -94,9 +102,11 @@ namespace detail {
 
 /// What is kept of a tool from tick to tick.
 struct FeltTool {
-  explicit FeltTool(TargetFollower its) : follower(its) {}
+  FeltTool(TargetFollower its, GripFollower of_grips)
+      : follower(std::move(its)), grips(std::move(of_grips)) {}
 
   TargetFollower follower;
+  GripFollower grips;
   Vector3d p_BC = Vector3d::Zero();  // [m]
   double stiffness = 0.0;            // [N/m]
   double look_ahead = 0.0;           // [s]  Damping by stiffness.
@@ -114,20 +124,29 @@ class ForceLoop::Implementation {
  public:
   Implementation(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
                  const ForceLoopOptions& options)
-      : options_(options), cone_(6 * scene.tools.size(), kMostHapticContacts) {
+      : options_(options),
+        links_(std::make_unique<detail::ToolLinks>(scene.tools)),
+        cone_(links_->coordinates(), kMostHapticContacts + 2 * links_->joints().size()) {
+    detail::weigh_joints(*links_, scene.tools[0].coupling.stiffness, frames_);
+    first_stiffness_ = scene.tools[0].coupling.stiffness;
+    tick_.joints = static_cast<std::uint32_t>(links_->joints().size());
+    for (std::size_t joint = 0; joint < tick_.joints; ++joint) {
+      tick_.joint_targets[joint] = links_->joints()[joint].start;
+    }
     for (std::size_t k = 0; k < scene.tools.size(); ++k) {
       const HapticTool& tool = scene.tools[k];
       DeviceMapping mapping = mappings[k];
       mapping.R_WD.normalize();
       mapping.X_DH.rotation.normalize();
       const Pose start{tool.X_WB.position, tool.X_WB.rotation.normalized()};
-      detail::FeltTool felt{detail::TargetFollower(mapping, start)};
+      detail::FeltTool felt{detail::TargetFollower(mapping, start),
+                            detail::GripFollower(mapping.grips, k, *links_)};
       felt.p_BC = tool.p_BC;
       felt.stiffness = tool.coupling.stiffness;
       felt.look_ahead = tool.coupling.damping / tool.coupling.stiffness;
       felt.scale = mapping.scale;
       felt.R_DW = mapping.R_WD.conjugate();
-      tools_.push_back(felt);
+      tools_.push_back(std::move(felt));
       frames_.lengths[k] = std::sqrt(tool.coupling.angular_stiffness / tool.coupling.stiffness);
       frames_.weights[k] = std::sqrt(tool.coupling.stiffness / scene.tools[0].coupling.stiffness);
       tick_.tools[k].target = start;
@@ -153,6 +172,8 @@ class ForceLoop::Implementation {
       tools_[k].follower.follow(devices[k], god_object, seconds, now_ns);
       tick.target = tools_[k].follower.target();
       tick.faults = tools_[k].follower.faults();
+      tools_[k].grips.follow(devices[k], tools_[k].follower.is_engaged(), set, seconds, tick.grips,
+                             tick_.joint_targets);
       measure_velocity(tools_[k], seconds);
     }
     const detail::ConeProjectionResult projected = project(set, now_ns);
@@ -163,6 +184,7 @@ class ForceLoop::Implementation {
         tick_.tools[k].faults |= bit(ForceFault::unsolved);
       }
       give_force(k, projected.force, seconds);
+      give_efforts(k, projected.force, seconds);
     }
     return tick_;
   }
@@ -175,8 +197,20 @@ class ForceLoop::Implementation {
     taken_ = set.sequence;
     frames_.p_WC = set.p_WC;
     cone_.clear();
+    frames_.axes = set.axes;
+    frames_.joints = set.joints;
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
       cone_.add(detail::cone_contact(set.contacts[c], frames_, 0.0));
+    }
+    if (set.count == 0) {
+      return;
+    }
+    for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
+      for (const double side : {1.0, -1.0}) {
+        if (detail::has_limit(links_->joints()[joint], side)) {
+          cone_.add(detail::limit_of_joint(joint, side, frames_));
+        }
+      }
     }
   }
 
@@ -205,7 +239,7 @@ class ForceLoop::Implementation {
     }
     const double seconds = kNanosecond * static_cast<double>(std::clamp<std::int64_t>(
                                              now_ns - set.stamp_ns, 0, options_.limits.fresh_ns));
-    for (std::size_t c = 0; c < cone_.size(); ++c) {
+    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
       const HapticContact& contact = set.contacts[c];
       if (contact.surface_velocity != Vector3d::Zero()) {
         cone_.set_shift(c, detail::cone_contact(contact, frames_, seconds).shift);
@@ -227,6 +261,10 @@ class ForceLoop::Implementation {
         wanted[at] = frames_.weights[k] * way[i];
         wanted[at + 3] = frames_.weights[k] * frames_.lengths[k] * turn[i];
       }
+    }
+    for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
+      wanted[links_->coordinate_of(joint)] =
+          frames_.joint_weights[joint] * (tick_.joint_targets[joint] - set.joints[joint]);
     }
     return cone_.project(wanted, options_.tolerance, options_.pivots);
   }
@@ -300,7 +338,40 @@ class ForceLoop::Implementation {
     tick.command.torque_D = tool.R_DW * torque_W;
   }
 
+  /// Gives the efforts of joints, and what they are on the grips that move them.
+  void give_efforts(std::size_t k, const Coordinates& force, double seconds) noexcept {
+    ToolTick& tick = tick_.tools[k];
+    const detail::FeltTool& tool = tools_[k];
+    std::uint32_t faults = 0;  // The force has them already.
+    const double share = tool.follower.is_engaged() ? share_of(tool, faults) : 0.0;
+    for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
+      if (links_->tool_of_joint(joint) == k) {
+        const double effort = share * first_stiffness_ * frames_.joint_weights[joint] *
+                              force[links_->coordinate_of(joint)];
+        tick_.joint_efforts[joint] = std::isfinite(effort) ? effort : 0.0;
+      }
+    }
+    const double most = options_.limits.grip_effort;
+    constexpr double kSlew = 2000.0;  // [1/s]
+    for (std::size_t grip = 0; grip < tool.grips.size(); ++grip) {
+      double effort = tool.grips.effort(grip, tick_.joint_efforts);
+      if (std::abs(effort) > most) {
+        effort = std::clamp(effort, -most, most);
+        tick.faults |= bit(ForceFault::limited);
+      }
+      const double before = tick.command.grips[grip];
+      if (tool.follower.is_engaged() && std::abs(effort - before) > kSlew * most * seconds) {
+        effort =
+            std::clamp(effort, before - kSlew * most * seconds, before + kSlew * most * seconds);
+        tick.faults |= bit(ForceFault::slewed);
+      }
+      tick.command.grips[grip] = effort;
+    }
+  }
+
   ForceLoopOptions options_;
+  std::unique_ptr<detail::ToolLinks> links_;
+  double first_stiffness_ = 0.0;  // [N/m]
   detail::ConeProjection cone_;
   detail::ToolFrames frames_;
   std::vector<detail::FeltTool> tools_;

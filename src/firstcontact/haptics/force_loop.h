@@ -20,6 +20,18 @@
 
 namespace firstcontact {
 
+/// A value of a device that moves joints of its tool: at 0 they are open, at 1 closed.
+struct GripMapping {
+  struct Joint {
+    std::size_t joint = 0;  ///< Of the tool.
+    double open = 0.0;      ///< [rad or m]
+    double closed = 0.0;    ///< [rad or m]
+  };
+  std::vector<Joint> joints;
+  int button = -1;       ///< While it is pressed the grip closes, else it opens; -1: by the device.
+  double seconds = 0.5;  ///< [s]  > 0  From open to closed by the button.
+};
+
 /// Where a device's handle H puts the body B of its tool.
 ///
 /// The handle's way from a reference pose is turned by R_WD, its translation scaled, and added to
@@ -33,14 +45,16 @@ struct DeviceMapping {
   bool begins_at_handle = false;  ///< The first live pose is the reference instead.
   int clutch_button = -1;    ///< While it is pressed the tool stays and no force acts; -1: none.
   int dead_man_button = -1;  ///< Unless it is pressed the same holds; -1: none.
+  std::vector<GripMapping> grips = {};  ///< At most kMostGrips: of the device's values in order.
 };
 
 /// The limits of what a hand may feel, whatever the scene.
 struct HapticLimits {
-  double force = 10.0;                  ///< [N]  >= 0  Length of the force.
-  double torque = 0.5;                  ///< [N m]  >= 0
-  double force_slew = 20'000.0;         ///< [N/s]  > 0
-  double torque_slew = 1'000.0;         ///< [N m/s]  > 0
+  double force = 10.0;           ///< [N]  >= 0  Length of the force.
+  double torque = 0.5;           ///< [N m]  >= 0
+  double force_slew = 20'000.0;  ///< [N/s]  > 0
+  double torque_slew = 1'000.0;  ///< [N m/s]  > 0
+  double grip_effort = 1.0;      ///< [J]  >= 0  Of each grip; its slew is 2000 of it a second.
   std::int64_t fresh_ns = 50'000'000;   ///< [ns]  A contact set of this age acts in full...
   std::int64_t stale_ns = 150'000'000;  ///< [ns]  ...and one of that age no more; >= fresh_ns.
   std::int64_t ramp_ns = 200'000'000;   ///< [ns]  Forces grow so long after an engagement.
@@ -76,16 +90,20 @@ struct ToolTick {
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About it.
   ForceCommand command = {};                           ///< The same for the device.
   std::uint32_t faults = 0;                            ///< Bits of ForceFault.
+  std::array<double, kMostGrips> grips{};  ///< [-]  In force: of the device, or by buttons.
 };
 
 /// A tick of the force loop.
 struct ForceTick {
   std::int64_t time_ns = 0;
   std::array<ToolTick, kMostTools> tools = {};
-  std::uint64_t set = 0;       ///< Its sequence; 0 for none.
-  std::int64_t age_ns = 0;     ///< Of the set.
-  std::uint32_t contacts = 0;  ///< Of the set.
-  std::uint32_t pressing = 0;
+  std::uint32_t joints = 0;                                  ///< Of all tools.
+  std::array<double, kMostHapticJoints> joint_targets = {};  ///< [rad or m]  As devices ask.
+  std::array<double, kMostHapticJoints> joint_efforts = {};  ///< [N m or N]  Of contacts, felt.
+  std::uint64_t set = 0;                                     ///< Its sequence; 0 for none.
+  std::int64_t age_ns = 0;                                   ///< Of the set.
+  std::uint32_t contacts = 0;                                ///< Of the set.
+  std::uint32_t pressing = 0;                                ///< Limits of joints count, too.
   std::uint32_t pivots = 0;
 };
 
@@ -94,7 +112,8 @@ struct ForceTick {
 /// A force is that of the spring between the target and where contacts would let the god-object be:
 /// the sum of contact forces in Coulomb's cones. It is exactly 0 where no contact presses, however
 /// far the god-object lags behind. With damping the target is where the device will be after
-/// damping / stiffness seconds, so that forces stay in the cones.
+/// damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is that of
+/// its own spring likewise.
 ///
 /// tick() allocates nothing, takes no lock, and makes no system call; its work is bounded.
 class FIRSTCONTACT_API ForceLoop {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,34 @@ struct HapticCoupling {
   double damping = 0.0;            ///< [N s/m]  >= 0. It costs stability; see docs/haptics.md.
 };
 
+/// A joint of a tool. A spring pulls it to where the device wants it.
+struct HapticJoint {
+  std::string name;
+  double start = 0.0;                                       ///< [rad or m]  Within its limits.
+  double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]
+  double upper = std::numeric_limits<double>::infinity();   ///< [rad or m]  >= lower
+  double stiffness = 1.0;  ///< [N m/rad or N/m]  > 0  Of its spring.
+};
+
+/// A link of a tool: X_PL(q) = X_PJ, then a turn about an axis and a slide along it.
+///
+/// P is the parent, J the frame of the joint in it, q the coordinate of the joint.
+struct HapticLink {
+  std::string name;
+  std::optional<Shape> shape = {};         ///< None where it touches nothing.
+  std::optional<std::size_t> parent = {};  ///< A link before it in the list; else the tool's body.
+  Pose X_PJ = {};
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< [-]  In J; not 0.
+  std::optional<std::size_t> joint = {};  ///< Of the tool; a link without one is fixed to P.
+  double turn = 0.0;                      ///< [-]  Angle by coordinate, or [rad/m].
+  double slide = 0.0;                     ///< [-]  Way by coordinate, or [m/rad].
+  double friction = 0.0;                  ///< [-]  >= 0
+};
+
 /// A body in a user's hand. Its god-object is where contacts let it be.
+///
+/// With joints it is a hand or a gripper, and the device moves its fingers as well. Links that one
+/// joint connects, and links that no joint moves against each other, may overlap.
 struct HapticTool {
   std::string name;
   Shape shape;
@@ -33,6 +61,8 @@ struct HapticTool {
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The centre that it turns about.
   double friction = 0.0;                           ///< [-]  >= 0
   HapticCoupling coupling = {};
+  std::vector<HapticJoint> joints = {};
+  std::vector<HapticLink> links = {};
 };
 
 /// A body around the tools. It does not yield.
@@ -52,7 +82,8 @@ struct HapticScene {
   /// [m]  > 0  Tools are kept at least so far from everything, to a few roundings, and rest at up
   /// to one and a half of it. Default: 1e-4 of the reach of the smallest tool.
   std::optional<double> contact_distance = {};
-  /// Pairs that may pass through each other, by their numbers among the tools, then the bodies.
+  /// Pairs that may pass through each other, by their numbers among the members: the tools, then
+  /// the bodies, then the links that have a shape.
   std::vector<std::array<std::size_t, 2>> ignored_pairs = {};
 };
 

@@ -84,7 +84,9 @@ class HapticSession::Implementation {
       for (std::size_t k = 0; k < targets_.size(); ++k) {
         targets_[k] = leads_[k].target_in(lead_);
       }
-      cycle_ = &contacts_.advance(targets_, 1e-9 * static_cast<double>(periods_.cycle_ns), now_ns_);
+      cycle_ = &contacts_.advance(
+          {.poses = targets_, .joints = std::span(tick.joint_targets).first(tick.joints)},
+          1e-9 * static_cast<double>(periods_.cycle_ns), now_ns_);
       is_running_ = true;
       ends_ns_ = now_ns_ + periods_.latency_ns;
       begins_ns_ = now_ns_ + periods_.cycle_ns;

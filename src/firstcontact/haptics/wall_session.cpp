@@ -48,6 +48,8 @@ struct HandedTargets {
   std::uint64_t sequence = 0;
   std::int64_t time_ns = 0;
   std::array<Pose, kMostTools> targets = {};
+  std::uint32_t joint_count = 0;
+  std::array<double, kMostHapticJoints> joints = {};
 };
 
 /// What both threads and the caller share.
@@ -157,6 +159,8 @@ class ForceThread {
       leads_[k].watch(now, tick.tools[k]);
       handed.targets[k] = leads_[k].target_in(lead_);
     }
+    handed.joint_count = tick.joints;
+    handed.joints = tick.joint_targets;
     shared_.targets.put(handed);
     shared_.ticks.push(tick);
     report_.tick_cpu.add(cpu_now_ns() - cpu);
@@ -209,7 +213,8 @@ class ContactThread {
     const std::int64_t begin = steady_now_ns();
     const WallClock::time_point deadline(std::chrono::nanoseconds(begin + period_ns_));
     const HapticCycle& cycle =
-        loop_.advance(std::span(handed.targets.data(), loop_.scene().tools.size()),
+        loop_.advance({.poses = std::span(handed.targets).first(loop_.scene().tools.size()),
+                       .joints = std::span(handed.joints).first(handed.joint_count)},
                       1e-9 * static_cast<double>(period_ns_), handed.time_ns, deadline);
     report_.cycle_wall.add(steady_now_ns() - begin);
     report_.cycle_cpu.add(cpu_now_ns() - cpu);

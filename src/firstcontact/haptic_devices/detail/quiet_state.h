@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -24,11 +25,18 @@ namespace firstcontact::detail {
 /// [m, m/s and rad/s]  A device that is farther away or faster has lost its reading.
 inline constexpr double kMostOfSample = 1e6;
 
+/// Whether the values of grips are numbers.
+[[nodiscard]] inline bool are_grips(const DeviceState& sample) noexcept {
+  return std::all_of(sample.grips.begin(), sample.grips.end(),
+                     [](double value) { return std::abs(value) <= kMostOfSample; });
+}
+
 /// Whether the numbers of a sample are those of a device, and its quaternion is a rotation.
 [[nodiscard]] inline bool makes_sense(const DeviceState& sample) noexcept {
   const double length = sample.X_DH.rotation.coeffs().norm();
-  return sample.X_DH.position.norm() <= kMostOfSample && std::abs(length - 1.0) < 1e-3 &&
-         sample.linear_rate.norm() <= kMostOfSample && sample.angular_rate.norm() <= kMostOfSample;
+  return are_grips(sample) && sample.X_DH.position.norm() <= kMostOfSample &&
+         std::abs(length - 1.0) < 1e-3 && sample.linear_rate.norm() <= kMostOfSample &&
+         sample.angular_rate.norm() <= kMostOfSample;
 }
 
 }  // namespace firstcontact::detail

@@ -12,8 +12,8 @@
 namespace firstcontact::detail {
 
 /// Coordinates of all tools: for each the translation of its centre, then its rotation vector times
-/// the length by which the metric weighs turning.
-inline constexpr std::size_t kMostCoordinates = 6 * kMostTools;
+/// the length by which the metric weighs turning. Those of joints follow, each times its length.
+inline constexpr std::size_t kMostCoordinates = 6 * kMostTools + kMostHapticJoints;
 using Coordinates = std::array<double, kMostCoordinates>;
 
 /// A contact in these coordinates. Its displacement is that of the tool relative to the other
@@ -50,7 +50,7 @@ struct ConeProjectionResult {
 /// After the construction nothing is allocated.
 class ConeProjection {
  public:
-  /// @param coordinates  6 or 12
+  /// @param coordinates  6 or 12, and one for each joint
   /// @param capacity     most contacts
   ConeProjection(std::size_t coordinates, std::size_t capacity);
 

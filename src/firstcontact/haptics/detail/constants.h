@@ -40,6 +40,10 @@ inline constexpr double kSlackOfFloor = 1e-6;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 1.2;
+/// [-]  Links of a tool move in pieces in which they stay so near to where joints have them...
+inline constexpr double kBendOfLinks = 0.25;
+/// [pieces]  ...of which a round has at most so many.
+inline constexpr double kMostPiecesOfLinks = 12.0;
 /// [-]  A round ends before a course has bent away so far from a straight line.
 inline constexpr double kBendOfCourse = 0.5;
 /// [-]  Where bodies with courses bring a tool so much nearer than it may come, there is no room.

@@ -1,5 +1,6 @@
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -21,7 +22,53 @@ void add_point_row(const Vector3d& axis, const Vector3d& point, const ToolFrames
   }
 }
 
+/// Adds the displacement along an axis of the point of a link by the joints on which it hangs.
+void add_joint_rows(const Vector3d& axis, const Vector3d& point, const ToolFrames& frames,
+                    double sign, int link, Coordinates& row) noexcept {
+  while (link >= 0) {
+    const auto at = static_cast<std::size_t>(link);
+    const ToolLinks::Node& node = frames.links->nodes()[at];
+    if (node.joint >= 0) {
+      const auto joint = static_cast<std::size_t>(node.joint);
+      row[frames.links->coordinate_of(joint)] +=
+          sign * axis.dot(rate_with_joint(at, point, frames)) / frames.joint_weights[joint];
+    }
+    link = node.parent;
+  }
+}
+
 }  // namespace
+
+void weigh_joints(const ToolLinks& links, double stiffness_of_first_tool, ToolFrames& frames) {
+  if (links.nodes().empty()) {
+    return;
+  }
+  frames.links = &links;
+  for (std::size_t joint = 0; joint < links.joints().size(); ++joint) {
+    frames.joint_weights[joint] =
+        std::sqrt(links.joints()[joint].stiffness / stiffness_of_first_tool);
+  }
+}
+
+Vector3d rate_with_joint(std::size_t link, const Vector3d& point,
+                         const ToolFrames& frames) noexcept {
+  const ToolLinks::Node& node = frames.links->nodes()[link];
+  const HapticAxis& axis = frames.axes[link];
+  return node.turn * axis.direction.cross(point - axis.point) + node.slide * axis.direction;
+}
+
+bool has_limit(const HapticJoint& joint, double side) noexcept {
+  return std::isfinite(side > 0.0 ? joint.lower : joint.upper);
+}
+
+ConeContact limit_of_joint(std::size_t joint, double side, const ToolFrames& frames) noexcept {
+  const HapticJoint& limits = frames.links->joints()[joint];
+  const double at = frames.joints[joint];
+  ConeContact cone{.way = std::max(0.0, side > 0.0 ? at - limits.lower : limits.upper - at)};
+  // In the unit of the joint, so that its room needs no weight.
+  cone.rows[0][frames.links->coordinate_of(joint)] = side / frames.joint_weights[joint];
+  return cone;
+}
 
 Eigen::Matrix3d contact_axes(const Vector3d& normal) noexcept {
   int least = 0;
@@ -41,11 +88,15 @@ ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
   const auto tool = static_cast<std::size_t>(contact.tool);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d axis = axes.row(static_cast<int>(k));
-    add_point_row(axis, contact.point, frames, 1.0, tool, cone.rows[k]);
-    if (contact.other >= 0) {
-      const auto other = static_cast<std::size_t>(contact.other);
-      add_point_row(axis, contact.point, frames, -1.0, other, cone.rows[k]);
+    if (contact.other != contact.tool) {  // Of one tool the two rows are opposite.
+      add_point_row(axis, contact.point, frames, 1.0, tool, cone.rows[k]);
+      if (contact.other >= 0) {
+        const auto other = static_cast<std::size_t>(contact.other);
+        add_point_row(axis, contact.point, frames, -1.0, other, cone.rows[k]);
+      }
     }
+    add_joint_rows(axis, contact.point, frames, 1.0, contact.link, cone.rows[k]);
+    add_joint_rows(axis, contact.point, frames, -1.0, contact.other_link, cone.rows[k]);
     cone.shift[k] = seconds * axis.dot(contact.surface_velocity);
   }
   return cone;

@@ -10,6 +10,7 @@
 
 #include <firstcontact/haptics/contact_set.h>
 #include <firstcontact/haptics/detail/cone_projection.h>
+#include <firstcontact/haptics/detail/tool_links.h>
 
 namespace firstcontact::detail {
 
@@ -21,13 +22,43 @@ struct ToolFrames {
   /// [-]  All coordinates of a tool are so many times larger: the root of its stiffness by that of
   /// the first.
   std::array<double, kMostTools> weights = {1.0, 1.0};
+  const ToolLinks* links = nullptr;                    ///< Null where no tool has joints.
+  std::array<HapticAxis, kMostHapticLinks> axes = {};  ///< Of their joints.
+  std::array<double, kMostHapticJoints> joints = {};   ///< [rad or m]  Where they are.
+  /// [m/rad or -]  A coordinate is so many times that of the joint: the root of its stiffness by
+  /// that of the first tool.
+  std::array<double, kMostHapticJoints> joint_weights = {};
+
+  [[nodiscard]] std::size_t joint_count() const {
+    return links == nullptr ? 0 : links->joints().size();
+  }
+  [[nodiscard]] std::size_t coordinates(std::size_t tools) const {
+    return 6 * tools + joint_count();
+  }
 };
+
+/// Sets the links and the weights of joints; `links` outlives the frames.
+void weigh_joints(const ToolLinks& links, double stiffness_of_first_tool, ToolFrames& frames);
 
 /// The rows of a contact. Its normal and two tangents make a rotation.
 ///
 /// @param seconds  since the contact was found: so far the surroundings have gone on
 [[nodiscard]] ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
                                        double seconds) noexcept;
+
+/// What keeps a joint within a limit.
+///
+/// @param side  1 for the lower limit, -1 for the upper one
+[[nodiscard]] ConeContact limit_of_joint(std::size_t joint, double side,
+                                         const ToolFrames& frames) noexcept;
+
+/// Whether a limit of a joint is a number.
+[[nodiscard]] bool has_limit(const HapticJoint& joint, double side) noexcept;
+
+/// [m, m/rad ...]  How fast a point of a link goes with the joint of that link or of one on which
+/// it hangs.
+[[nodiscard]] Eigen::Vector3d rate_with_joint(std::size_t link, const Eigen::Vector3d& point,
+                                              const ToolFrames& frames) noexcept;
 
 /// The rows of a contact's normal and two tangents, world axes.
 [[nodiscard]] Eigen::Matrix3d contact_axes(const Eigen::Vector3d& normal) noexcept;

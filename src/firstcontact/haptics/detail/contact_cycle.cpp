@@ -35,7 +35,7 @@ double ContactLoop::Implementation::straight_slot(double slot) const {
 /// Sets how far the bodies with courses go in a part of the cycle: from where they are to where
 /// their courses are then.
 void ContactLoop::Implementation::set_courses(double slot) {
-  for (std::size_t m = tools(); m < members_.size(); ++m) {
+  for (std::size_t m = tools(); m < first_link(); ++m) {
     courses_[m] = {};
     if (has_course(m)) {
       const Motion& course = *body_of(m).course;
@@ -60,16 +60,47 @@ void ContactLoop::Implementation::append_piece(std::size_t member, const Displac
   }
 }
 
-/// Makes the plan as far as it is proven.
+/// Makes the plan as far as it is proven, in pieces where links move.
 ///
 /// @returns  [-]  the part of it that was made
 double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, double slot,
                                             double dt, const std::optional<Deadline>& deadline) {
+  const std::size_t pieces = pieces_of(plan.displacements);
+  if (pieces == 1) {
+    return execute_piece(plan.displacements, slot, dt, deadline);
+  }
+  const double part = 1.0 / static_cast<double>(pieces);
+  const detail::ToolDisplacements ways = plan.displacements.part(part);
+  const double end = slot == dt - now_ ? dt : now_ + slot;
+  for (std::size_t m = tools(); m < first_link(); ++m) {
+    courses_[m].translation *= part;
+    courses_[m].rotation_vector *= part;
+  }
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const double made =
+        execute_piece(ways, (end - now_) / static_cast<double>(pieces - k), dt, deadline);
+    if (made < 1.0) {
+      return (static_cast<double>(k) + made) * part;
+    }
+  }
+  return 1.0;
+}
+
+/// Makes a piece of a plan as far as it is proven.
+double ContactLoop::Implementation::execute_piece(const detail::ToolDisplacements& ways,
+                                                  double slot, double dt,
+                                                  const std::optional<Deadline>& deadline) {
+  for (std::size_t m = 0; m < first_link(); ++m) {
+    ways_[m] = m < tools() ? ways[m] : courses_[m];
+  }
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    if (m >= tools() && !has_course(m)) {
+    if (m == first_link()) {
+      set_link_motions(ways);
+    }
+    if (stands(m)) {
       continue;
     }
-    const Displacement& way = m < tools() ? plan.displacements[m] : courses_[m];
+    const Displacement& way = ways_[m];
     const ConstantRatePiece piece{
         .X_WB = poses_[m], .translation = way.translation, .rotation_vector = way.rotation_vector};
     motions_[m] = Motion::constant_rates(std::span(&piece, 1),
@@ -83,12 +114,17 @@ double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, d
     return 0.0;
   }
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    if (m >= tools() && !has_course(m)) {
+    if (stands(m)) {
       continue;
     }
-    append_piece(m, m < tools() ? plan.displacements[m] : courses_[m], proven.t, to);
+    append_piece(m, ways_[m], proven.t, to);
     poses_[m] = motions_[m].pose(proven.t);
     placed_[m].reset();
+  }
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    const HapticJoint& limits = links_.joints()[joint];
+    joints_[joint] =
+        std::clamp(joints_[joint] + proven.t * ways.joints[joint], limits.lower, limits.upper);
   }
   rest_clearance_ = proven.clearance;
   cycle_.clearance = std::min(cycle_.clearance, proven.clearance);
@@ -112,7 +148,7 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   cycle_.members.clear();
   are_courses_moving_ = false;
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    if (m < tools() || has_course(m)) {
+    if (!stands(m)) {
       cycle_.members.push_back({.member = m});
     }
     are_courses_moving_ = are_courses_moving_ || (has_course(m) && time_ < scene_.duration);
@@ -173,13 +209,18 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
   publish(stamp_ns);
 }
 
-const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> targets, double dt,
+const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& targets, double dt,
                                                         std::int64_t stamp_ns,
                                                         const std::optional<Deadline>& deadline) {
-  detail::require_haptic(targets.size() == tools(), "a target for each tool was expected");
+  detail::require_haptic(targets.poses.size() == tools(), "a target for each tool was expected");
+  detail::require_haptic(targets.joints.empty() || targets.joints.size() == joints_.size(),
+                         "a target for each joint was expected, or none");
   detail::require_haptic(dt > 0.0 && std::isfinite(dt), "dt must be > 0 s");
-  for (const Pose& target : targets) {
+  for (const Pose& target : targets.poses) {
     detail::require_haptic(detail::is_finite_pose(target), "a target is not finite");
+  }
+  for (const double target : targets.joints) {
+    detail::require_haptic(std::isfinite(target), "the target of a joint is not finite");
   }
   const FloatEnvironmentGuard guard;
   begin_cycle(dt);
@@ -246,6 +287,10 @@ void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
     set_.X_WB[k] = poses_[k];
     set_.p_WC[k] = frames_.p_WC[k];
   }
+  set_.joint_count = static_cast<std::uint32_t>(joints_.size());
+  set_.link_count = static_cast<std::uint32_t>(links_.nodes().size());
+  set_.joints = frames_.joints;
+  set_.axes = frames_.axes;
   set_.checksum = checksum_of(set_);
 }
 

@@ -17,6 +17,7 @@
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/last_round.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
+#include <firstcontact/haptics/detail/tool_links.h>
 #include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/query/first_contact.h>
@@ -24,18 +25,20 @@
 
 namespace firstcontact {
 
-/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp, its plans in contact_plan.cpp.
+/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp, its plans in contact_plan.cpp,
+/// the links of its tools in tool_motion.cpp.
 class ContactLoop::Implementation {
  public:
   Implementation(HapticScene scene, const ContactLoopOptions& options);
 
-  const HapticCycle& advance(std::span<const Pose> targets, double dt, std::int64_t stamp_ns,
+  const HapticCycle& advance(const HapticTargets& targets, double dt, std::int64_t stamp_ns,
                              const std::optional<Deadline>& deadline);
 
   HapticScene scene_;
   double distance_ = 0.0;  // [m]
   double time_ = 0.0;      // [s]
   std::vector<Pose> poses_;
+  std::vector<double> joints_;  // [rad or m]
   HapticContactSet set_;
 
  private:
@@ -46,9 +49,22 @@ class ContactLoop::Implementation {
   [[nodiscard]] const HapticBody& body_of(std::size_t member) const {
     return scene_.bodies[member - tools()];
   }
-  [[nodiscard]] bool has_course(std::size_t member) const {
-    return member >= tools() && body_of(member).course.has_value();
+  [[nodiscard]] std::size_t first_link() const { return tools() + scene_.bodies.size(); }
+  [[nodiscard]] bool is_body(std::size_t member) const {
+    return member >= tools() && member < first_link();
   }
+  [[nodiscard]] bool has_course(std::size_t member) const {
+    return is_body(member) && body_of(member).course.has_value();
+  }
+  [[nodiscard]] bool stands(std::size_t member) const {
+    return is_body(member) && !has_course(member);
+  }
+  /// The link that a member is; -1 for others.
+  [[nodiscard]] int link_of(std::size_t member) const {
+    return member < first_link() ? -1 : static_cast<int>(links_with_shape_[member - first_link()]);
+  }
+  /// The tool that a member is or hangs on; -1 for bodies.
+  [[nodiscard]] int tool_of(std::size_t member) const;
   /// [-]  Of the courses, at a time of the session.
   [[nodiscard]] double share(double time) const { return std::min(1.0, time / scene_.duration); }
   [[nodiscard]] Vector3d centre(std::size_t tool) const {
@@ -56,25 +72,33 @@ class ContactLoop::Implementation {
   }
 
   void begin_members();
+  void begin_links();
+  void begin_pairs();
+  void measure_joints();
   void require_start();
-  [[nodiscard]] std::string name_of(std::size_t member) const {
-    return member < tools() ? scene_.tools[member].name : body_of(member).name;
-  }
+  [[nodiscard]] std::string name_of(std::size_t member) const;
   void find_contacts();
+  void number(HapticTouch& touch, std::size_t other, std::size_t tool) const;
   void set_frames();
+  void set_link_frames();
+  [[nodiscard]] std::size_t pieces_of(const detail::ToolDisplacements& ways) const;
+  [[nodiscard]] double part_within_turn(const detail::ToolDisplacements& ways) const;
+  void set_link_motions(const detail::ToolDisplacements& ways);
   void begin_cycle(double dt);
-  [[nodiscard]] detail::ToolDisplacements wanted(std::span<const Pose> targets) const;
+  [[nodiscard]] detail::ToolDisplacements wanted(const HapticTargets& targets) const;
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
   [[nodiscard]] double straight_slot(double slot) const;
   void set_courses(double slot);
   [[nodiscard]] std::vector<std::size_t> projected_touches() const;
-  [[nodiscard]] detail::PlannedTouch planned(const HapticContact& contact) const;
+  [[nodiscard]] detail::PlannedTouch planned(const HapticTouch& of) const;
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
-  [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
+  [[nodiscard]] detail::GodObjectPlan plan_within_turn(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_or_part(const detail::ToolDisplacements& ways);
   [[nodiscard]] detail::GodObjectPlan plan_round(const detail::ToolDisplacements& ways);
   double execute(const detail::GodObjectPlan& plan, double slot, double dt,
                  const std::optional<Deadline>& deadline);
+  double execute_piece(const detail::ToolDisplacements& ways, double slot, double dt,
+                       const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);
   void rest_until(double dt);
   void end_cycle(double dt, std::int64_t stamp_ns);
@@ -86,7 +110,15 @@ class ContactLoop::Implementation {
   std::vector<std::optional<PlacedShape>> placed_;
   std::vector<detail::HapticPair> pairs_;
   std::vector<detail::ScriptedMotion> bends_;  // Of all courses.
-  std::vector<Displacement> courses_;          // Of members, over the next plan.
+  detail::ToolLinks links_;
+  std::vector<std::size_t> links_with_shape_;
+  std::vector<double> reaches_;  // [m]  Of each joint: from its axis to the farthest point.
+  std::vector<double> levers_;   // [m]  Of each link: the longest of the joints on which it hangs.
+  double link_reach_ = 0.0;      // [m]  From any tool's centre to its farthest point.
+  std::vector<Pose> X_WL_;       // Where joints have the links.
+  std::vector<Displacement> courses_;  // Of members, over the next plan. Of links: from where they
+                                       // are to where their joints have them.
+  std::vector<Displacement> ways_;     // Of members, over the piece of a plan.
   std::vector<Motion> motions_;
   detail::ContactFinder finder_{0.0};
   Workspace workspace_;

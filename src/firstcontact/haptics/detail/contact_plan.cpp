@@ -14,11 +14,15 @@
 
 namespace firstcontact {
 
-detail::ToolDisplacements ContactLoop::Implementation::wanted(std::span<const Pose> targets) const {
+detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTargets& targets) const {
   detail::ToolDisplacements ways;
+  for (std::size_t k = 0; k < targets.joints.size(); ++k) {
+    const HapticJoint& joint = links_.joints()[k];
+    ways.joints[k] = std::clamp(targets.joints[k], joint.lower, joint.upper) - joints_[k];
+  }
   for (std::size_t k = 0; k < tools(); ++k) {
-    const Eigen::Quaterniond R_WB = targets[k].rotation.normalized();
-    ways[k].translation = targets[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
+    const Eigen::Quaterniond R_WB = targets.poses[k].rotation.normalized();
+    ways[k].translation = targets.poses[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
     ways[k].rotation_vector = detail::turn_between(poses_[k].rotation, R_WB);
   }
   return ways;
@@ -29,6 +33,9 @@ double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& way
   for (std::size_t k = 0; k < tools(); ++k) {
     gain = std::max(
         gain, ways[k].translation.norm() + ways[k].rotation_vector.norm() * members_[k].reach);
+  }
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    gain = std::max(gain, std::abs(ways.joints[joint]) * reaches_[joint]);
   }
   return gain;
 }
@@ -49,12 +56,22 @@ std::vector<std::size_t> ContactLoop::Implementation::projected_touches() const 
   return all;
 }
 
-detail::PlannedTouch ContactLoop::Implementation::planned(const HapticContact& contact) const {
+detail::PlannedTouch ContactLoop::Implementation::planned(const HapticTouch& of) const {
+  const HapticContact& contact = of.contact;
   detail::PlannedTouch touch{.contact = &contact,
                              .way = contact.gap - detail::kRestGap * distance_};
   if (contact.body >= 0) {
     const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
     touch.surface = courses_[member].at(contact.point - poses_[member].position);
+  }
+  const auto way_of_link = [&](std::size_t member) -> Vector3d {
+    return courses_[member].at(contact.point - poses_[member].position);
+  };
+  if (contact.other_link >= 0) {
+    touch.surface += way_of_link(of.members[0]);
+  }
+  if (contact.link >= 0) {
+    touch.surface -= way_of_link(of.members[1]);
   }
   return touch;
 }
@@ -62,17 +79,20 @@ detail::PlannedTouch ContactLoop::Implementation::planned(const HapticContact& c
 detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
   planned_.clear();
   for (const std::size_t k : projected_touches()) {
-    planned_.push_back(planned(touches_[k].contact));
+    planned_.push_back(planned(touches_[k]));
   }
   for (const HapticTouch& touch : left_) {
-    planned_.push_back(planned(touch.contact));
+    planned_.push_back(planned(touch));
   }
   detail::GodObjectPlan plan =
       detail::plan_god_objects(wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_);
-  for (Displacement& way : plan.displacements) {
+  for (Displacement& way : plan.displacements.tools) {
     if (!way.translation.allFinite() || !way.rotation_vector.allFinite()) {
       way = {};
     }
+  }
+  for (double& way : plan.displacements.joints) {
+    way = std::isfinite(way) ? way : 0.0;
   }
   cycle_.residual = std::max(cycle_.residual, plan.residual);
   return plan;
@@ -81,7 +101,7 @@ detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDispla
 /// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
 /// do not hold.
 detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
-    detail::ToolDisplacements wanted) {
+    const detail::ToolDisplacements& wanted) {
   detail::GodObjectPlan found = plan(wanted);
   double part = 1.0;
   for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
@@ -89,20 +109,20 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
     const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
     part = std::min(part, most / found.displacements[k].rotation_vector.norm());
   }
+  if (found.is_pressed) {
+    part = std::min(part, part_within_turn(found.displacements));
+  }
+  const double pieces = static_cast<double>(pieces_of(found.displacements)) * part;
+  if (pieces > detail::kMostPiecesOfLinks) {
+    part *= detail::kMostPiecesOfLinks / pieces;
+  }
   if (!(part < 1.0)) {
     return found;
   }
   if (are_courses_moving_) {
-    for (Displacement& way : wanted) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
-    found = plan(wanted);
+    found = plan(wanted.part(part));
   } else {
-    for (Displacement& way : found.displacements) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
+    found.displacements = found.displacements.part(part);
   }
   found.is_shortened = true;
   return found;

@@ -158,7 +158,7 @@ std::optional<std::vector<std::size_t>> kept_within(const std::vector<ContactRow
 
 ReducedContacts reduce_contacts(std::span<const HapticContact> contacts, const ToolFrames& frames,
                                 std::size_t tools, double angle, std::size_t most) {
-  const std::size_t coordinates = 6 * tools;
+  const std::size_t coordinates = frames.coordinates(tools);
   std::vector<ContactRows> rows;
   rows.reserve(contacts.size());
   for (const HapticContact& contact : contacts) {

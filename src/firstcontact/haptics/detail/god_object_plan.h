@@ -26,13 +26,29 @@ struct Displacement {
   }
 };
 
-using ToolDisplacements = std::array<Displacement, kMostTools>;
+/// The displacements of all tools and of their joints.
+struct ToolDisplacements {
+  std::array<Displacement, kMostTools> tools = {};
+  std::array<double, kMostHapticJoints> joints = {};  ///< [rad or m]
+
+  [[nodiscard]] Displacement& operator[](std::size_t tool) { return tools[tool]; }
+  [[nodiscard]] const Displacement& operator[](std::size_t tool) const { return tools[tool]; }
+
+  /// The same part of each.
+  [[nodiscard]] ToolDisplacements part(double part) const;
+  [[nodiscard]] bool all_finite() const;
+};
+
+/// The product of two displacements in the metric of the springs [m^2].
+[[nodiscard]] double product_of(const ToolDisplacements& a, const ToolDisplacements& b,
+                                const ToolFrames& frames, std::size_t tools);
 
 /// A touch as a projection needs it.
 struct PlannedTouch {
   const HapticContact* contact = nullptr;
   double way = 0.0;  ///< [m]  To where the pair rests; negative where it is too near.
-  Eigen::Vector3d surface = Eigen::Vector3d::Zero();  ///< [m]  How far the surroundings go there.
+  /// [m]  How far the surroundings go there, less the way of a link that coordinates do not have.
+  Eigen::Vector3d surface = Eigen::Vector3d::Zero();
 };
 
 struct GodObjectPlan {

@@ -19,8 +19,7 @@ bool are_alike(const HapticTouch& a, const HapticTouch& b) {
   const auto same = [](const Feature& x, const Feature& y) {
     return x.type == y.type && x.index == y.index;
   };
-  return a.contact.tool == b.contact.tool && a.contact.other == b.contact.other &&
-         a.contact.body == b.contact.body && same(a.feature_of_other, b.feature_of_other) &&
+  return a.members == b.members && same(a.feature_of_other, b.feature_of_other) &&
          same(a.feature_of_tool, b.feature_of_tool);
 }
 
@@ -35,14 +34,7 @@ void LastRound::keep(const std::vector<Pose>& poses, const std::vector<HapticTou
 
 bool LastRound::is_left_by(const ToolDisplacements& way, const ToolFrames& frames,
                            std::size_t tools) const {
-  double along = 0.0;
-  for (std::size_t k = 0; k < tools; ++k) {
-    const double length = frames.lengths[k];
-    along += frames.weights[k] * frames.weights[k] *
-             (way[k].translation.dot(way_[k].translation) +
-              length * length * way[k].rotation_vector.dot(way_[k].rotation_vector));
-  }
-  return !poses_.empty() && along < 0.0;
+  return !poses_.empty() && product_of(way, way_, frames, tools) < 0.0;
 }
 
 std::vector<HapticTouch> LastRound::touches_left(const std::vector<Pose>& poses,
@@ -54,11 +46,10 @@ std::vector<HapticTouch> LastRound::touches_left(const std::vector<Pose>& poses,
     }
     HapticContact& contact = touch.contact;
     const Vector3d half = 0.5 * contact.gap * contact.normal;
-    const auto tool = static_cast<std::size_t>(contact.tool);
+    const auto [other, tool] = touch.members;
     const Vector3d of_tool = carried(contact.point + half, poses_[tool], poses[tool]);
     Vector3d of_other = contact.point - half;
     if (contact.other >= 0) {
-      const auto other = static_cast<std::size_t>(contact.other);
       of_other = carried(of_other, poses_[other], poses[other]);
     }
     contact.gap = contact.normal.dot(of_tool - of_other);

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/distance.h>
@@ -26,16 +30,71 @@ HeldApart held_apart(double gap, double contact_distance) {
   return {margin, 0.5 * (gap - margin)};
 }
 
+/// [-]  Of the sizes: more than the rounding of what is computed of balls.
+constexpr double kRoundingOfBalls = 1e-12;
+
+/// A ball that holds a member wherever it goes.
+struct MemberBall {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]  World.
+  double radius = 0.0;                               // [m]
+};
+
+MemberBall ball_of(const HapticMember& member, const Pose& X_WM) {
+  const Eigen::Vector3d& centre = member.shape.bounds().centre;
+  const double size = X_WM.position.norm() + centre.norm() + member.reach;
+  return {X_WM.position + X_WM.rotation.normalized() * centre,
+          member.reach + kRoundingOfBalls * size};
+}
+
+/// Over a motion: the centre goes with the pivot, and turns about it at a constant rate.
+MemberBall ball_over(const HapticMember& member, const Motion& motion) {
+  MemberBall ball = ball_of(member, motion.pose(0.0));
+  if (motion.breaks().size() != 2) {
+    return {ball.centre, std::numeric_limits<double>::infinity()};
+  }
+  const ConstantRatePath path = motion.path(0, member.shape.bounds().centre);
+  const double way = path.pivot_velocity().value().norm() + path.rate() * path.lever_length();
+  ball.radius += (1.0 + kRoundingOfBalls) * way;
+  return ball;
+}
+
+bool are_far(const MemberBall& A, const MemberBall& B, double distance) {
+  return (A.centre - B.centre).norm() - A.radius - B.radius > distance;
+}
+
+/// The balls of members that are in pairs that may be far.
+std::vector<MemberBall> balls_over(std::span<const HapticMember> members,
+                                   std::span<const Motion> motions,
+                                   std::span<const HapticPair> pairs) {
+  std::vector<MemberBall> balls;
+  if (std::ranges::any_of(pairs, &HapticPair::may_be_far)) {
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      balls.push_back(ball_over(members[m], motions[m]));
+    }
+  }
+  return balls;
+}
+
 }  // namespace
+
+bool are_far(const HapticMember& A, const Pose& X_WA, const HapticMember& B, const Pose& X_WB,
+             double distance) {
+  return are_far(ball_of(A, X_WA), ball_of(B, X_WB), distance);
+}
 
 ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Motion> motions,
                       std::span<HapticPair> pairs, double contact_distance,
                       const std::optional<std::chrono::steady_clock::time_point>& deadline,
                       Workspace& workspace, FirstContactResult& scratch) {
   ProvenPart proven{.clearance = std::numeric_limits<double>::infinity()};
+  const std::vector<MemberBall> balls = balls_over(members, motions, pairs);
   for (HapticPair& pair : pairs) {
     const auto [other, tool] = pair.members;
     const HeldApart held = held_apart(pair.gap, contact_distance);
+    if (pair.may_be_far && are_far(balls[other], balls[tool], held.margin)) {
+      proven.clearance = std::min(proven.clearance, held.margin);
+      continue;
+    }
     FirstContactOptions options{
         .margin = held.margin, .tolerance = held.tolerance, .contacts = ContactState::none};
     options.budget.deadline = deadline;

@@ -21,8 +21,13 @@ namespace firstcontact::detail {
 struct HapticPair {
   std::array<std::size_t, 2> members = {};  ///< The other one, then the tool.
   double gap = 0.0;                         ///< [m]  Infinite where it is beyond the band.
-  BoxFront front = {};  ///< Of the members in that order; empty where the roots do as well.
+  BoxFront front = {};      ///< Of the members in that order; empty where the roots do as well.
+  bool may_be_far = false;  ///< Balls around both are compared first.
 };
+
+/// Whether balls around two members are farther apart than a distance, by more than rounding.
+[[nodiscard]] bool are_far(const HapticMember& A, const Pose& X_WA, const HapticMember& B,
+                           const Pose& X_WB, double distance);
 
 struct ProvenPart {
   double t = 1.0;          ///< [-]  Of the plan: proven free of contact until here.

@@ -20,7 +20,7 @@ bool has_button(const DeviceState& device, int button) noexcept {
 }
 
 bool is_sound(const DeviceState& device) noexcept {
-  return device.X_DH.position.norm() <= kMostOfSample &&
+  return are_grips(device) && device.X_DH.position.norm() <= kMostOfSample &&
          device.X_DH.rotation.coeffs().allFinite() && device.X_DH.rotation.squaredNorm() > 0.0 &&
          device.linear_rate.norm() <= kMostOfSample && device.angular_rate.norm() <= kMostOfSample;
 }

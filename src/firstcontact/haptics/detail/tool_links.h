@@ -1,0 +1,74 @@
+/// @file
+/// The links of all tools, and where joints put them.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/haptics/contact_set.h>
+#include <firstcontact/haptics/haptic_scene.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact::detail {
+
+/// Links and joints of all tools, numbered tool after tool.
+class ToolLinks {
+ public:
+  struct Node {
+    std::size_t tool = 0;
+    int parent = -1;  ///< A link before it; -1 for the tool's body.
+    int joint = -1;   ///< -1 where it is fixed.
+    double turn = 0.0;
+    double slide = 0.0;
+    Pose X_PJ;
+    Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();
+  };
+
+  ToolLinks() = default;
+  /// @param tools  that were checked (check_haptic_scene())
+  explicit ToolLinks(const std::vector<HapticTool>& tools);
+
+  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const HapticJoint> joints() const { return joints_; }
+  [[nodiscard]] std::size_t tool_count() const { return tools_; }
+  [[nodiscard]] std::size_t tool_of_joint(std::size_t joint) const { return tool_of_joint_[joint]; }
+
+  /// Coordinates of the tools stand first, six each; those of joints follow.
+  [[nodiscard]] std::size_t coordinates() const { return 6 * tools_ + joints_.size(); }
+  [[nodiscard]] std::size_t coordinate_of(std::size_t joint) const { return 6 * tools_ + joint; }
+
+  /// Whether two links touch by construction: one hangs on the other, or no joint moves one against
+  /// the other.
+  ///
+  /// @param a, b  links; -1 for the body of their tool
+  [[nodiscard]] bool are_joined(int a, int b) const;
+
+  /// Places all links.
+  ///
+  /// @param X_WB    of the tools
+  /// @param joints  [rad or m]
+  /// @param X_WL    takes their poses
+  void place(std::span<const Pose> X_WB, std::span<const double> joints, std::span<Pose> X_WL,
+             std::span<HapticAxis> axes) const;
+
+  /// [rad]  How far each link turns at most against its tool where joints go by so much.
+  [[nodiscard]] std::vector<double> turns(std::span<const double> of_joints) const;
+
+  /// [rad]  The turn of a link by its own joint.
+  [[nodiscard]] double own_turn(std::size_t link, std::span<const double> of_joints) const;
+
+ private:
+  [[nodiscard]] int rigid_root(int link) const;
+
+  std::size_t tools_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<HapticJoint> joints_;
+  std::vector<std::size_t> tool_of_joint_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,170 @@
+// The links of tools in a contact loop: where joints have them, and how they go there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/contact_loop_implementation.h>
+
+namespace firstcontact {
+
+int ContactLoop::Implementation::tool_of(std::size_t member) const {
+  const int link = link_of(member);
+  if (link >= 0) {
+    return static_cast<int>(links_.nodes()[static_cast<std::size_t>(link)].tool);
+  }
+  return member < tools() ? static_cast<int>(member) : -1;
+}
+
+std::string ContactLoop::Implementation::name_of(std::size_t member) const {
+  if (is_body(member)) {
+    return body_of(member).name;
+  }
+  std::size_t link = member < tools() ? 0 : links_with_shape_[member - first_link()];
+  for (const HapticTool& tool : scene_.tools) {
+    if (member >= tools() && link < tool.links.size()) {
+      return tool.links[link].name;
+    }
+    link -= member < tools() ? 0 : tool.links.size();
+  }
+  return scene_.tools[member].name;
+}
+
+/// Adds the links that have a shape to the members.
+void ContactLoop::Implementation::begin_links() {
+  links_ = detail::ToolLinks(scene_.tools);
+  for (const HapticJoint& joint : links_.joints()) {
+    joints_.push_back(joint.start);
+  }
+  detail::weigh_joints(links_, scene_.tools.front().coupling.stiffness, frames_);
+  X_WL_.resize(links_.nodes().size());
+  links_.place(std::span(poses_).first(tools()), joints_, X_WL_, frames_.axes);
+  std::size_t number = 0;
+  for (const HapticTool& tool : scene_.tools) {
+    for (const HapticLink& link : tool.links) {
+      if (link.shape) {
+        const Shape shape = link.shape->as_triangles();
+        members_.push_back({.shape = shape,
+                            .reach = shape.bounds().reach + shape.radius(),
+                            .friction = link.friction});
+        poses_.push_back(X_WL_[number]);
+        placed_.emplace_back();
+        motions_.push_back(Motion::fixed(X_WL_[number]));
+        links_with_shape_.push_back(number);
+      }
+      ++number;
+    }
+  }
+  measure_joints();
+}
+
+/// Measures how far points of tools are from the axes that turn them, where they begin.
+void ContactLoop::Implementation::measure_joints() {
+  reaches_.assign(joints_.size(), 0.0);
+  levers_.assign(links_.nodes().size(), 0.0);
+  for (std::size_t m = first_link(); m < members_.size(); ++m) {
+    const Vector3d& centre = members_[m].shape.bounds().centre;
+    const Vector3d point = poses_[m].position + poses_[m].rotation * centre;
+    const auto tool = static_cast<std::size_t>(tool_of(m));
+    const Vector3d p_WC =
+        poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
+    link_reach_ = std::max(link_reach_, (point - p_WC).norm() + members_[m].reach);
+    for (int link = link_of(m); link >= 0;) {
+      const auto number = static_cast<std::size_t>(link);
+      const detail::ToolLinks::Node& node = links_.nodes()[number];
+      if (node.joint >= 0) {
+        const double lever = (point - frames_.axes[number].point).norm() + members_[m].reach;
+        double& reach = reaches_[static_cast<std::size_t>(node.joint)];
+        reach = std::max(reach, std::abs(node.turn) * lever + std::abs(node.slide));
+        levers_[number] = std::max(levers_[number], lever);
+      }
+      link = node.parent;
+    }
+  }
+  for (std::size_t link = 0; link < levers_.size(); ++link) {
+    const int parent = links_.nodes()[link].parent;
+    const double before = parent < 0 ? 0.0 : levers_[static_cast<std::size_t>(parent)];
+    levers_[link] = std::max(levers_[link], before);
+  }
+}
+
+/// Takes axes and joints over, and how far links are from where joints have them: by less than a
+/// piece of a plan bends, as a contact may end it anywhere.
+void ContactLoop::Implementation::set_link_frames() {
+  if (links_.nodes().empty()) {
+    return;
+  }
+  links_.place(std::span(poses_).first(tools()), joints_, X_WL_, frames_.axes);
+  std::ranges::copy(joints_, frames_.joints.begin());
+  for (std::size_t m = first_link(); m < members_.size(); ++m) {
+    const Pose& to = X_WL_[links_with_shape_[m - first_link()]];
+    courses_[m] = {to.position - poses_[m].position,
+                   detail::turn_between(poses_[m].rotation, to.rotation)};
+  }
+}
+
+/// Into how many pieces links cut a plan.
+///
+/// A link's origin goes on a line and the link turns about it, each at a constant rate. So a joint
+/// alone bends nothing. Joints and a tool that turn together do, by an eighth of the product of
+/// their angles times a lever.
+std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacements& ways) const {
+  const std::vector<double> turns = links_.turns(ways.joints);
+  double bend = 0.0;
+  for (std::size_t link = 0; link < turns.size(); ++link) {
+    const double of_tool = ways[links_.nodes()[link].tool].rotation_vector.norm();
+    const double own = links_.own_turn(link, ways.joints);
+    const double before = turns[link] - own;
+    bend = std::max(bend, 0.125 * (link_reach_ * of_tool * of_tool +
+                                   levers_[link] * ((2.0 * of_tool + before) * before +
+                                                    2.0 * (of_tool + before) * own)));
+  }
+  const double pieces = std::ceil(std::sqrt(bend / (detail::kBendOfLinks * distance_)));
+  return static_cast<std::size_t>(std::clamp(pieces, 1.0, 1e6));
+}
+
+/// [-]  The part of a plan in which no link turns farther than straight constraints of contacts
+/// hold: points sink by half of the lever times the square of the angle.
+double ContactLoop::Implementation::part_within_turn(const detail::ToolDisplacements& ways) const {
+  double part = 1.0;
+  const auto keep = [&](double turn, double lever) {
+    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / lever);
+    part = turn > most ? std::min(part, most / turn) : part;
+  };
+  const std::vector<double> turns = links_.turns(ways.joints);
+  for (std::size_t link = 0; link < turns.size(); ++link) {
+    keep(ways[links_.nodes()[link].tool].rotation_vector.norm(), link_reach_);
+    keep(turns[link], levers_[link]);
+  }
+  return part;
+}
+
+/// Sets the motions of links over a piece: from where they are to where joints have them then.
+/// Their tools have theirs.
+void ContactLoop::Implementation::set_link_motions(const detail::ToolDisplacements& ways) {
+  if (links_.nodes().empty()) {
+    return;
+  }
+  std::vector<Pose> X_WB;
+  for (std::size_t k = 0; k < tools(); ++k) {
+    X_WB.push_back(motions_[k].pose(1.0));
+  }
+  std::vector<double> joints = joints_;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    joints[k] += ways.joints[k];
+  }
+  std::array<HapticAxis, kMostHapticLinks> axes;
+  links_.place(X_WB, joints, X_WL_, axes);
+  for (std::size_t m = first_link(); m < members_.size(); ++m) {
+    const Pose& to = X_WL_[links_with_shape_[m - first_link()]];
+    ways_[m] = {to.position - poses_[m].position,
+                detail::turn_between(poses_[m].rotation, to.rotation)};
+  }
+}
+
+}  // namespace firstcontact
