@@ -1,5 +1,7 @@
 #include "haptic_live.h"
 
+#include <variant>
+
 #include <fmt/core.h>
 
 #include <firstcontact/run_page/write_run_page.h>
@@ -30,16 +32,21 @@ HapticLive::HapticLive(const HapticSetup& setup, std::size_t tool) : setup_(setu
   for (const HapticBody& body : setup.scene.bodies) {
     poses_.push_back(body.course ? std::optional(body.course->pose(0.0)) : std::nullopt);
   }
+  first_link_ = poses_.size();
+  poses_.resize(setup.bodies.size());
 }
 
 std::string HapticLive::page(const RunHeader& header, std::string_view page_template) const {
   RunPage still(header);
   RunStep step{.index = 1, .time = kStill, .lasted = kStill};
   for (std::size_t k = 0; k < poses_.size(); ++k) {
-    if (poses_[k]) {
-      step.bodies.push_back({.body = setup_.bodies[k],
-                             .pieces = {{.to = kStill, .X_WB = *poses_[k]}},
-                             .X_WB = *poses_[k]});
+    std::optional<Pose> pose = poses_[k];
+    if (k >= first_link_) {  // A link begins where its body stands.
+      pose = std::get<FixedMotion>(header.scene.bodies[setup_.bodies[k]].motion).pose;
+    }
+    if (pose) {
+      step.bodies.push_back(
+          {.body = setup_.bodies[k], .pieces = {{.to = kStill, .X_WB = *pose}}, .X_WB = *pose});
     }
   }
   still.add(step);

@@ -41,6 +41,7 @@ class HapticLive {
   const HapticSetup& setup_;
   std::size_t tool_;
   std::vector<std::optional<Pose>> poses_;  // X_WB of tools, and of members that move.
+  std::size_t first_link_ = 0;              // Of the members.
   std::vector<HapticTouch> touches_;
   std::int64_t shown_ns_ = 0;
 };

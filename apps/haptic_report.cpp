@@ -64,7 +64,11 @@ void HapticReport::add(const ForceTick& tick, std::size_t tools) {
     force_ = std::max(force_, tool.command.force_D.norm());
     torque_ = std::max(torque_, tool.command.torque_D.norm());
     faults_ |= tool.faults;
+    for (const double effort : tool.command.grips) {
+      effort_ = std::max(effort_, std::abs(effort));
+    }
   }
+  has_joints_ = tick.joints > 0;
 }
 
 void HapticReport::add(const HapticCycle& cycle) {
@@ -89,6 +93,10 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
                                                      : "no pair to keep apart");
   text += report_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
   text += report_line("force", fmt::format("at most {:.4g} N and {:.4g} N m", force_, torque_));
+  if (has_joints_) {
+    text +=
+        report_line("grips", fmt::format("at most {:.4g} J, as work from open to closed", effort_));
+  }
   if (faults_ != 0) {
     text += report_line("at times", fault_words(faults_));
   }

@@ -42,6 +42,8 @@ class HapticReport {
   std::uint64_t touching_ = 0;    // Cycles that ended with contacts.
   std::uint64_t unfinished_ = 0;  // Cycles that could have gained more.
   std::uint32_t faults_ = 0;
+  double effort_ = 0.0;  // [J]  On a grip.
+  bool has_joints_ = false;
 };
 
 /// Describes a device that a hand moved: its name, its samples, and why it is lost if it is.

@@ -110,6 +110,15 @@ NamedDevices read_devices(const Arguments& arguments) {
   return named;
 }
 
+/// The values of grips that a device has to sense: up to the last that no button closes.
+int grips_of_device(const DeviceMapping& mapping) {
+  int count = 0;
+  for (std::size_t k = 0; k < mapping.grips.size(); ++k) {
+    count = mapping.grips[k].button < 0 ? static_cast<int>(k) + 1 : count;
+  }
+  return count;
+}
+
 /// A hand that knows nothing of the scene: it wants to be anywhere around the tool.
 SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const HapticTool& tool,
                                         const DeviceMapping& mapping, double duration,
@@ -124,6 +133,7 @@ SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const Haptic
   SimulatedOperatorOptions options;
   options.path = random_via_points(path);
   options.seed = path.seed;
+  options.fingers.grips = grips_of_device(mapping);
   return options;
 }
 
@@ -230,6 +240,7 @@ class HapticsRun {
                                             setup_.options.mappings[k], named_.duration, k)));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
       require_buttons(k);
+      require_grips(k);
       pointers_.push_back(devices_[k].get());
       if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
         mouse_ = mouse;
@@ -243,8 +254,12 @@ class HapticsRun {
     const DeviceMapping& mapping = setup_.options.mappings[tool];
     const DeviceCapabilities& device = devices_[tool]->capabilities();
     const bool is_recorded = dynamic_cast<const RecordedDevice*>(devices_[tool].get()) != nullptr;
-    for (const auto& [key, button] : {std::pair("dead_man_button", mapping.dead_man_button),
-                                      std::pair("clutch_button", mapping.clutch_button)}) {
+    std::vector<std::pair<const char*, int>> buttons{{"dead_man_button", mapping.dead_man_button},
+                                                     {"clutch_button", mapping.clutch_button}};
+    for (const GripMapping& grip : mapping.grips) {
+      buttons.emplace_back("button of a grip", grip.button);
+    }
+    for (const auto& [key, button] : buttons) {
       if (!is_recorded && button >= static_cast<int>(device.buttons)) {
         throw ParseError(arguments_.scene,
                          fmt::format("haptics: {} is {}, but the device {} has {} buttons; choose "
@@ -254,14 +269,27 @@ class HapticsRun {
     }
   }
 
+  /// A grip that the device does not sense would never close.
+  void require_grips(std::size_t tool) const {
+    const int needed = grips_of_device(setup_.options.mappings[tool]);
+    const DeviceCapabilities& device = devices_[tool]->capabilities();
+    if (needed > device.grips) {
+      throw ParseError(arguments_.scene,
+                       fmt::format("haptics: the grips of \"{}\" follow {} values of the device, "
+                                   "but {} senses {}; give grips a \"button\", or leave them out",
+                                   setup_.scene.tools[tool].name, needed,
+                                   device.name.empty() ? "it" : device.name, device.grips));
+    }
+  }
+
   void begin_files() {
     const double distance = distance_of(setup_);
     record_.emplace(loaded_, setup_, distance);
     if (!arguments_.page.empty()) {
       page_.emplace(record_->header());
     }
-    ticks_.emplace(arguments_.ticks, haptic_tick_header());
-    cycles_.emplace(arguments_.cycles, haptic_cycle_header());
+    ticks_.emplace(arguments_.ticks, haptic_tick_header(columns()));
+    cycles_.emplace(arguments_.cycles, haptic_cycle_header(columns()));
     // Last: what cannot be written elsewhere leaves no run behind.
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
@@ -277,6 +305,8 @@ class HapticsRun {
     }
   }
 
+  GripColumns columns() const { return grip_columns(setup_.scene, setup_.options); }
+
   void take(const ForceTick& tick) {
     begin_ns_ = report_.ticks() == 0 ? tick.time_ns : begin_ns_;
     report_.add(tick, setup_.scene.tools.size());
@@ -284,7 +314,7 @@ class HapticsRun {
       mouse_->show(live_->picture(tick));
     }
     if (ticks_->is_open()) {
-      ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size()));
+      ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size(), columns()));
     }
     if (!arguments_.plot.empty()) {
       plot_.add(tick, begin_ns_, god_objects_);

@@ -49,6 +49,18 @@ constexpr std::array<std::string_view, kColumns> kColumnNames{
     "time_ns", "sequence", "buttons", "status", "x",  "y",  "z",  "qw", "qx",
     "qy",      "qz",       "vx",      "vy",     "vz", "wx", "wy", "wz"};
 
+constexpr std::string_view kGrip = "grip";
+
+/// The number of a column "grip0" to "grip15"; none of another name.
+std::optional<std::size_t> grip_of(std::string_view name) {
+  for (std::size_t k = 0; k < kMostGrips; ++k) {
+    if (name == std::string(kGrip) + std::to_string(k)) {
+      return k;
+    }
+  }
+  return std::nullopt;
+}
+
 std::string_view name_of(Column column) { return kColumnNames[static_cast<std::size_t>(column)]; }
 
 /// Whether recordings of this kind must have the column.
@@ -155,7 +167,13 @@ class RecordingParser {
       const std::string_view name = names_[place];
       const auto found = std::find(kColumnNames.begin(), kColumnNames.end(), name);
       const auto column = static_cast<Column>(found - kColumnNames.begin());
-      if (column == Column::other && name.find('.') == std::string_view::npos) {
+      grips_.push_back(grip_of(name));
+      if (grips_.back()) {
+        take_grip(place);
+      } else if (column == Column::other && name.starts_with(kGrip)) {
+        fail_at(place, "unknown column; grips have the names grip0 to grip" +
+                           std::to_string(kMostGrips - 1));
+      } else if (column == Column::other && name.find('.') == std::string_view::npos) {
         const std::string_view nearest =
             detail::nearest_word(name, {kColumnNames.begin(), kColumnNames.end()});
         fail_at(place, "unknown column" + (nearest.empty()
@@ -168,6 +186,11 @@ class RecordingParser {
       }
       columns_.push_back(column);
     }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(recording_.capabilities.grips); ++k) {
+      if (std::ranges::find(grips_, std::optional(k)) == grips_.end()) {
+        fail("column 'grip" + std::to_string(k) + "' is missing: grips count from grip0 on");
+      }
+    }
     for (std::size_t i = 0; i < kColumns; ++i) {
       const auto column = static_cast<Column>(i);
       if (is_needed(column, recording_.capabilities.kind) &&
@@ -176,6 +199,14 @@ class RecordingParser {
              kDeviceKindWords[static_cast<std::size_t>(recording_.capabilities.kind)] + " have");
       }
     }
+  }
+
+  void take_grip(std::size_t place) {
+    if (std::count(grips_.begin(), grips_.end(), grips_.back()) > 1) {
+      fail_at(place, "stands twice");
+    }
+    int& grips = recording_.capabilities.grips;
+    grips = std::max(grips, static_cast<int>(*grips_.back()) + 1);
   }
 
   template <class Integer>
@@ -223,6 +254,9 @@ class RecordingParser {
         sample.status = status(place);
         return;
       case Column::other:
+        if (grips_[place]) {
+          sample.grips[*grips_[place]] = number(place);
+        }
         return;
       default:
         break;
@@ -284,6 +318,7 @@ class RecordingParser {
   std::size_t number_ = 0;
   std::vector<std::string_view> names_;
   std::vector<Column> columns_;
+  std::vector<std::optional<std::size_t>> grips_;  // Of columns: which grip.
   std::vector<std::string_view> cells_;
   Recording recording_;
 };
@@ -309,12 +344,15 @@ std::string recording_head(const DeviceCapabilities& capabilities,
   std::string text = "# " + std::string(detail::kRecordingTitle) + ": 1\n" +
                      detail::recording_keys(capabilities, calibration);
   text += capabilities.kind == DeviceKind::pose
-              ? "time_ns,sequence,buttons,status,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n"
-              : "time_ns,sequence,buttons,status,vx,vy,vz,wx,wy,wz\n";
-  return text;
+              ? "time_ns,sequence,buttons,status,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"
+              : "time_ns,sequence,buttons,status,vx,vy,vz,wx,wy,wz";
+  for (int k = 0; k < capabilities.grips; ++k) {
+    text += "," + std::string(kGrip) + std::to_string(k);
+  }
+  return text + "\n";
 }
 
-std::string recording_line(const DeviceState& sample, DeviceKind kind) {
+std::string recording_line(const DeviceState& sample, DeviceKind kind, int grips) {
   std::string text = std::to_string(sample.time_ns) + "," + std::to_string(sample.sequence) + "," +
                      std::to_string(sample.buttons) + "," +
                      kDeviceStatusWords[static_cast<std::size_t>(sample.status)];
@@ -326,13 +364,17 @@ std::string recording_line(const DeviceState& sample, DeviceKind kind) {
   }
   append(text, sample.linear_rate);
   append(text, sample.angular_rate);
+  for (std::size_t k = 0; k < std::min(kMostGrips, static_cast<std::size_t>(std::max(0, grips)));
+       ++k) {
+    text += "," + detail::write_json(sample.grips[k]);
+  }
   return text + "\n";
 }
 
 std::string write_recording(const Recording& recording) {
   std::string text = recording_head(recording.capabilities, recording.calibration);
   for (const DeviceState& sample : recording.samples) {
-    text += recording_line(sample, recording.capabilities.kind);
+    text += recording_line(sample, recording.capabilities.kind, recording.capabilities.grips);
   }
   return text;
 }

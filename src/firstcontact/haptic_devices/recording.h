@@ -54,8 +54,10 @@ struct Recording {
     const DeviceCapabilities& capabilities, const DeviceCalibration& calibration = {});
 
 /// The line of one sample, with its line end. Reads back to the same numbers.
+///
+/// @param grips  values of grips that the device senses
 [[nodiscard]] FIRSTCONTACT_API std::string recording_line(const DeviceState& sample,
-                                                          DeviceKind kind);
+                                                          DeviceKind kind, int grips = 0);
 
 /// The text of a whole recording.
 [[nodiscard]] FIRSTCONTACT_API std::string write_recording(const Recording& recording);

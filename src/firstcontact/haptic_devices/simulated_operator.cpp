@@ -66,6 +66,14 @@ void check(const ChannelOptions& channel) {
   }
 }
 
+void check(const FingerOptions& fingers) {
+  require_range(fingers.grips >= 0 && fingers.grips <= static_cast<int>(kMostGrips),
+                "grips must be from 0 to 16");
+  require_range(fingers.period > 0.0 && std::isfinite(fingers.period) &&
+                    std::abs(fingers.closed) <= detail::kMostOfSample,
+                "the period of fingers must be > 0, and closed at most 1e6");
+}
+
 void check(const std::vector<HandRelease>& releases) {
   double last = -std::numeric_limits<double>::infinity();
   for (const HandRelease& release : releases) {
@@ -79,6 +87,7 @@ const SimulatedOperatorOptions& checked(const SimulatedOperatorOptions& options)
   check(options.hand);
   check(options.mechanism);
   check(options.channel);
+  check(options.fingers);
   check(options.releases);
   require_range(options.substep > 0.0, "substep must be > 0");
   return options;
@@ -92,6 +101,9 @@ DeviceCapabilities operator_capabilities(const SimulatedOperatorOptions& options
   result.sensed = DegreesOfFreedom::all();
   result.driven = DegreesOfFreedom::all();
   result.buttons = 1;
+  result.grips = options.fingers.grips;
+  result.max_grip_effort =
+      options.fingers.grips > 0 ? std::numeric_limits<double>::infinity() : 0.0;
   result.max_force = mechanism.max_force;
   result.max_torque = mechanism.max_torque;
   result.max_stiffness = std::numeric_limits<double>::infinity();
@@ -136,6 +148,10 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorOptions& options)
                        random.uniform(hand.tremor_frequencies[0], hand.tremor_frequencies[1]);
       sine.phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     }
+  }
+  for (int k = 0; k < options.fingers.grips; ++k) {
+    grip_rates_[static_cast<std::size_t>(k)] =
+        2.0 * std::numbers::pi / (options.fingers.period * random.uniform(0.7, 1.3));
   }
   for (const HandRelease& release : options.releases) {
     releases_.push_back({nanoseconds(release.begin), nanoseconds(release.end)});
@@ -271,6 +287,9 @@ void SimulatedOperator::take_sample(std::int64_t now_ns) noexcept {
   sample.time_ns = now_ns;
   sample.sequence = ++taken_;
   sample_count_.store(taken_, std::memory_order_relaxed);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options_.fingers.grips); ++k) {
+    sample.grips[k] = 0.5 * options_.fingers.closed * (1.0 - std::cos(grip_rates_[k] * time_));
+  }
   sample.buttons = truth_.held ? 1 : 0;
   sample.status = DeviceStatus::live;
 }

@@ -54,6 +54,13 @@ struct ChannelOptions {
   std::int64_t jitter_ns = 0;  ///< [ns]   Either delay is longer by a random time below this.
 };
 
+/// The fingers of the hand: they open and close, and do not yield to efforts.
+struct FingerOptions {
+  int grips = 0;        ///< Values that the device senses; 0 to kMostGrips.
+  double period = 2.0;  ///< [s]  > 0  From open to open; each grip's own is 0.7 to 1.3 of it.
+  double closed = 1.0;  ///< [-]  Where they turn back.
+};
+
 /// A stretch of time in which the hand lets go of the handle.
 struct HandRelease {
   double begin = 0.0;  ///< [s]
@@ -64,6 +71,7 @@ struct SimulatedOperatorOptions {
   HandOptions hand;
   MechanismOptions mechanism;
   ChannelOptions channel;
+  FingerOptions fingers;
   std::vector<ViaPoint> path = {ViaPoint{}};  ///< See OperatorPath.
   std::vector<HandRelease> releases;          ///< In order, apart from each other.
   std::uint64_t seed = 1;                     ///< Of the tremor and the jitter.
@@ -141,6 +149,7 @@ class FIRSTCONTACT_API SimulatedOperator : public Device {
   DeviceCapabilities capabilities_;
   OperatorPath path_;
   std::array<std::array<Sine, 3>, 6> tremor_{};  // Along x, y, z, then about them.
+  std::array<double, kMostGrips> grip_rates_{};  // [rad/s]
   std::vector<ReleaseTime> releases_;
   std::uint64_t random_;
 

@@ -61,6 +61,7 @@ struct HapticCycle {
   double residual = 0.0;      ///< [m]  The greatest of the projections.
   std::size_t contacts = 0;   ///< At its end.
   std::vector<HapticMemberMotion> members = {};
+  std::vector<double> joints = {};        ///< [rad or m]  Of all tools, at its end.
   std::vector<HapticTouch> touches = {};  ///< At its end; those that the contact set lists.
 };
 

@@ -1,8 +1,10 @@
 #include <firstcontact/haptics_files/haptic_log.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -27,6 +29,12 @@ class CsvLine {
   CsvLine& add(const Eigen::Vector3d& vector) {
     return add(vector.x()).add(vector.y()).add(vector.z());
   }
+  CsvLine& add(std::span<const double> numbers) {
+    for (const double number : numbers) {
+      add(number);
+    }
+    return *this;
+  }
   CsvLine& add(const Pose& pose) {
     const Eigen::Quaterniond& q = pose.rotation;
     return add(pose.position).add(q.w()).add(q.x()).add(q.y()).add(q.z());
@@ -36,6 +44,15 @@ class CsvLine {
  private:
   std::string text_;
 };
+
+/// Names of columns, each behind a comma: "grip0" and so on.
+std::string numbered(const char* name, std::size_t count) {
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k) {
+    text += std::string(",") + name + std::to_string(k);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -50,15 +67,29 @@ std::string fault_words(std::uint32_t faults) {
   return words;
 }
 
-std::string haptic_tick_header() {
+GripColumns grip_columns(const HapticScene& scene, const HapticSessionOptions& options) {
+  GripColumns columns;
+  for (const DeviceMapping& mapping : options.mappings) {
+    columns.grips = std::max(columns.grips, mapping.grips.size());
+  }
+  for (const HapticTool& tool : scene.tools) {
+    columns.joints += tool.joints.size();
+  }
+  return columns;
+}
+
+std::string haptic_tick_header(const GripColumns& columns) {
   return "time_ns,tool,status,sequence,sample_ns,buttons,device_px,device_py,device_pz,device_qw,"
          "device_qx,device_qy,device_qz,target_px,target_py,target_pz,target_qw,target_qx,"
          "target_qy,target_qz,force_x,force_y,force_z,torque_x,torque_y,torque_z,command_fx,"
          "command_fy,command_fz,command_tx,command_ty,command_tz,faults,set,age_ns,contacts,"
-         "pressing,pivots\n";
+         "pressing,pivots" +
+         numbered("grip", columns.grips) + numbered("command_g", columns.grips) +
+         numbered("target_j", columns.joints) + numbered("effort_j", columns.joints) + "\n";
 }
 
-std::string haptic_tick_lines(const ForceTick& tick, std::size_t tools) {
+std::string haptic_tick_lines(const ForceTick& tick, std::size_t tools,
+                              const GripColumns& columns) {
   std::string lines;
   for (std::size_t k = 0; k < tools; ++k) {
     const ToolTick& tool = tick.tools[k];
@@ -81,13 +112,18 @@ std::string haptic_tick_lines(const ForceTick& tick, std::size_t tools) {
         .add(tick.contacts)
         .add(tick.pressing)
         .add(tick.pivots);
+    line.add(std::span(tool.grips).first(columns.grips))
+        .add(std::span(tool.command.grips).first(columns.grips))
+        .add(std::span(tick.joint_targets).first(columns.joints))
+        .add(std::span(tick.joint_efforts).first(columns.joints));
     lines += line.take();
   }
   return lines;
 }
 
-std::string haptic_cycle_header() {
-  return "cycle,time_ns,asked_s,lasted_s,clearance_m,rounds,converged,late,residual_m,contacts\n";
+std::string haptic_cycle_header(const GripColumns& columns) {
+  return "cycle,time_ns,asked_s,lasted_s,clearance_m,rounds,converged,late,residual_m,contacts" +
+         numbered("joint", columns.joints) + "\n";
 }
 
 std::string haptic_cycle_line(const HapticCycle& cycle, std::int64_t time_ns) {
@@ -101,7 +137,8 @@ std::string haptic_cycle_line(const HapticCycle& cycle, std::int64_t time_ns) {
       .add(cycle.is_converged ? 1 : 0)
       .add(cycle.is_late ? 1 : 0)
       .add(cycle.residual)
-      .add(cycle.contacts);
+      .add(cycle.contacts)
+      .add(std::span(cycle.joints));
   return line.take();
 }
 

@@ -9,19 +9,30 @@
 
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
 
+/// Columns that only scenes with grips have.
+struct GripColumns {
+  std::size_t grips = 0;   ///< Of the tool that has most.
+  std::size_t joints = 0;  ///< Of all tools.
+};
+
+[[nodiscard]] FIRSTCONTACT_API GripColumns grip_columns(const HapticScene& scene,
+                                                        const HapticSessionOptions& options);
+
 /// The first line of a log of ticks. Numbers read back to the same double.
-[[nodiscard]] FIRSTCONTACT_API std::string haptic_tick_header();
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_tick_header(const GripColumns& columns = {});
 
 /// The lines of a tick, one for each tool.
 [[nodiscard]] FIRSTCONTACT_API std::string haptic_tick_lines(const ForceTick& tick,
-                                                             std::size_t tools);
+                                                             std::size_t tools,
+                                                             const GripColumns& columns = {});
 
-[[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_header();
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_header(const GripColumns& columns = {});
 
 /// @param time_ns  of the targets that the cycle followed
 [[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_line(const HapticCycle& cycle,

@@ -44,12 +44,15 @@ RunContact run_contact(const HapticTouch& touch, std::size_t other, std::size_t 
 
 HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double contact_distance)
     : header_{.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest},
-      bodies_(setup.bodies),
-      tools_(setup.scene.tools.size()) {
+      bodies_(setup.bodies) {
   header_.scene.simulation->contact_distance = contact_distance;
   header_.masses.assign(loaded.scene.bodies.size(), 0.0);
   header_.centres_of_mass.assign(loaded.scene.bodies.size(), Eigen::Vector3d::Zero());
-  for (std::size_t k = 0; k < tools_; ++k) {
+  const std::size_t tools = setup.scene.tools.size();
+  for (std::size_t k = tools + setup.scene.bodies.size(); k < bodies_.size(); ++k) {
+    header_.masses[bodies_[k]] = 1.0;  // Links turn about their origins.
+  }
+  for (std::size_t k = 0; k < tools; ++k) {
     header_.masses[bodies_[k]] = 1.0;
     header_.centres_of_mass[bodies_[k]] = setup.scene.tools[k].p_BC;
   }
@@ -68,11 +71,8 @@ RunStep HapticRun::step(const HapticCycle& cycle) {
   }
   std::ranges::sort(step.bodies, {}, &RunBody::body);
   for (const HapticTouch& touch : cycle.touches) {
-    const HapticContact& contact = touch.contact;
-    const std::size_t other = contact.other >= 0 ? static_cast<std::size_t>(contact.other)
-                                                 : tools_ + static_cast<std::size_t>(contact.body);
-    step.contacts.push_back(
-        run_contact(touch, bodies_[other], bodies_[static_cast<std::size_t>(contact.tool)]));
+    const auto [other, tool] = touch.members;
+    step.contacts.push_back(run_contact(touch, bodies_[other], bodies_[tool]));
   }
   std::ranges::sort(step.contacts, {}, [](const RunContact& c) {
     return std::tuple(c.bodies, c.feature_A.type, c.feature_A.index, c.feature_B.type,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,6 +31,19 @@ const HapticQuestion& question_of(const Scene& scene) {
   return *scene.haptics;
 }
 
+std::vector<GripMapping> grips_of(const HapticToolQuestion& tool) {
+  std::vector<GripMapping> grips;
+  for (const HapticGripQuestion& question : tool.grips) {
+    GripMapping grip{
+        .joints = {}, .button = question.button.value_or(-1), .seconds = question.seconds};
+    for (const HapticGripJoint& joint : question.joints) {
+      grip.joints.push_back({.joint = joint.joint, .open = joint.open, .closed = joint.closed});
+    }
+    grips.push_back(std::move(grip));
+  }
+  return grips;
+}
+
 HapticSessionOptions session_options(const HapticQuestion& question) {
   HapticSessionOptions options{.force_rate = question.force_rate,
                                .contact_rate = question.contact_rate};
@@ -37,28 +51,60 @@ HapticSessionOptions session_options(const HapticQuestion& question) {
   options.forces.limits.torque = question.max_torque;
   options.forces.limits.force_slew = question.force_slew;
   options.forces.limits.torque_slew = question.torque_slew;
+  options.forces.limits.grip_effort = question.max_grip_effort;
   for (const HapticToolQuestion& tool : question.tools) {
     options.mappings.push_back({.R_WD = tool.device_axes,
                                 .scale = tool.scale,
                                 .X_DH = tool.handle,
                                 .begins_at_handle = tool.begins_at_handle,
                                 .clutch_button = tool.clutch_button.value_or(-1),
-                                .dead_man_button = tool.dead_man_button.value_or(-1)});
+                                .dead_man_button = tool.dead_man_button.value_or(-1),
+                                .grips = grips_of(tool)});
   }
   return options;
+}
+
+void add_links(const LoadedScene& loaded, const HapticToolQuestion& question, double friction,
+               HapticTool& tool) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  for (const HapticToolJoint& joint : question.joints) {
+    tool.joints.push_back({.name = joint.name,
+                           .start = joint.start,
+                           .lower = joint.lower.value_or(-kInfinite),
+                           .upper = joint.upper.value_or(kInfinite),
+                           .stiffness = joint.stiffness});
+  }
+  for (const HapticToolLink& link : question.links) {
+    HapticLink made{.name = {},
+                    .parent = link.parent,
+                    .X_PJ = link.X_PJ,
+                    .axis = link.axis,
+                    .joint = link.joint,
+                    .turn = link.turn,
+                    .slide = link.slide};
+    if (link.body) {
+      const Body& body = loaded.scene.bodies[*link.body];
+      made.name = body.name;
+      made.shape = loaded.bodies.shape(*link.body);
+      made.friction = body.surface.friction.value_or(friction);
+    }
+    tool.links.push_back(std::move(made));
+  }
 }
 
 HapticTool tool_of(const LoadedScene& loaded, const HapticToolQuestion& question, double friction) {
   const Body& body = loaded.scene.bodies[question.body];
   const Shape& shape = loaded.bodies.shape(question.body);
-  return {.name = body.name,
-          .shape = shape,
-          .X_WB = std::get<FixedMotion>(body.motion).pose,
-          .p_BC = question.centre.value_or(shape.bounds().centre),
-          .friction = body.surface.friction.value_or(friction),
-          .coupling = {.stiffness = question.stiffness,
-                       .angular_stiffness = question.angular_stiffness,
-                       .damping = question.damping}};
+  HapticTool tool{.name = body.name,
+                  .shape = shape,
+                  .X_WB = std::get<FixedMotion>(body.motion).pose,
+                  .p_BC = question.centre.value_or(shape.bounds().centre),
+                  .friction = body.surface.friction.value_or(friction),
+                  .coupling = {.stiffness = question.stiffness,
+                               .angular_stiffness = question.angular_stiffness,
+                               .damping = question.damping}};
+  add_links(loaded, question, friction, tool);
+  return tool;
 }
 
 HapticBody body_of(const LoadedScene& loaded, std::size_t number, double friction) {
@@ -97,6 +143,11 @@ void prepare_haptics(Scene& scene, ShapeCache& cache, double duration, double la
   scene.simulation.emplace();
   for (const HapticToolQuestion& tool : question.tools) {
     scene.bodies[tool.body].free.emplace().mass = 1.0;
+    for (const HapticToolLink& link : tool.links) {
+      if (link.body) {
+        scene.bodies[*link.body].free.emplace().mass = 1.0;
+      }
+    }
   }
   HapticSessionOptions options = session_options(question);
   options.contact_latency_ns = std::llround(1e9 * latency);
@@ -116,14 +167,27 @@ HapticSetup haptic_setup(const LoadedScene& loaded) {
     setup.scene.tools.push_back(tool_of(loaded, tool, question.friction));
     setup.bodies.push_back(tool.body);
   }
+  std::vector<std::size_t> links;
+  for (const HapticToolQuestion& tool : question.tools) {
+    for (const HapticToolLink& link : tool.links) {
+      if (link.body) {
+        links.push_back(*link.body);
+      }
+    }
+  }
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
-    if (std::ranges::find(setup.bodies, b) == setup.bodies.end()) {
+    if (std::ranges::find(setup.bodies, b) == setup.bodies.end() &&
+        std::ranges::find(links, b) == links.end()) {
       setup.scene.bodies.push_back(body_of(loaded, b, question.friction));
       setup.bodies.push_back(b);
     }
   }
-  for (std::size_t tool = 0; tool < question.tools.size(); ++tool) {
-    for (std::size_t other = tool + 1; other < setup.bodies.size(); ++other) {
+  const std::size_t first_link = setup.bodies.size();
+  setup.bodies.insert(setup.bodies.end(), links.begin(), links.end());
+  for (std::size_t tool = 0; tool < setup.bodies.size(); ++tool) {
+    const bool is_of_tool = tool < question.tools.size();
+    for (std::size_t other = is_of_tool ? tool + 1 : std::max(tool + 1, first_link);
+         other < setup.bodies.size(); ++other) {
       const auto [first, second] = std::minmax(setup.bodies[tool], setup.bodies[other]);
       if (!margin_of_pair(loaded, {first, second})) {
         setup.scene.ignored_pairs.push_back({tool, other});

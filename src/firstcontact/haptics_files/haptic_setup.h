@@ -20,13 +20,14 @@ struct Scene;
 struct HapticSetup {
   HapticScene scene = {};
   HapticSessionOptions options = {};
-  std::vector<std::size_t> bodies = {};  ///< Of the tools, then of the others.
+  /// Of the tools, then of the others, then of the links that grips move.
+  std::vector<std::size_t> bodies = {};
 };
 
 /// Prepares a scene with "haptics" for the record of a session of this length.
 ///
 /// Its tools become free bodies; its simulation has the steps of the contact loop. Robots that rest
-/// become bodies, each of one mesh.
+/// become bodies, each of one mesh; of a tool with grips each link becomes one.
 ///
 /// @param duration  [s]  > 0; motions of other bodies go on as in set_simulation_duration()
 /// @param latency   [s]  >= 0  of the contact loop in virtual time: its steps are as long at least

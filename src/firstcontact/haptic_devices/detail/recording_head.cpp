@@ -40,7 +40,8 @@ constexpr std::array<NumberKey, 14> kNumberKeys{{
     {"sample_rate", &DeviceCapabilities::sample_rate},
 }};
 
-constexpr std::array<const char*, 10> kOtherKeys{"device",
+constexpr std::array<const char*, 11> kOtherKeys{"device",
+                                                 "max_grip_effort",
                                                  "id",
                                                  "kind",
                                                  "sensed",
@@ -248,6 +249,8 @@ void read_recording_key(std::string_view line, const std::string& source, std::s
     capabilities.driven = reader.degrees();
   } else if (reader.is("buttons")) {
     capabilities.buttons = static_cast<int>(reader.integer(32));
+  } else if (reader.is("max_grip_effort")) {
+    capabilities.max_grip_effort = reader.not_negative();
   } else if (reader.is("silent_after_ns")) {
     capabilities.silent_after_ns = reader.integer(std::numeric_limits<std::int64_t>::max());
   } else if (key.starts_with("calibration_") && nearest_word(key, all_keys()) == key) {
@@ -272,6 +275,9 @@ std::string recording_keys(const DeviceCapabilities& capabilities,
   put(text, "buttons", std::to_string(capabilities.buttons));
   for (const NumberKey& key : kNumberKeys) {
     put(text, key.name, written(key.name, capabilities.*key.value));
+  }
+  if (capabilities.grips > 0) {
+    put(text, "max_grip_effort", written("max_grip_effort", capabilities.max_grip_effort));
   }
   put(text, "silent_after_ns", std::to_string(capabilities.silent_after_ns));
   const Eigen::Vector3d& p = calibration.X_DR.position;

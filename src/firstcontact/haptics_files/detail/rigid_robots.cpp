@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/haptics_files/detail/moving_links.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
@@ -92,7 +93,11 @@ class RobotsAsBodies {
   void run() {
     require_apart_at_start();
     for (std::size_t r = 0; r < scene_.robots.size(); ++r) {
-      add(r);
+      if (HapticToolQuestion* tool = tool_with_grips(r)) {
+        add_links(r, *tool);
+      } else {
+        add(r);
+      }
     }
     take_ignored_pairs();
     for (BodyGroup& group : scene_.groups) {
@@ -104,6 +109,7 @@ class RobotsAsBodies {
       }
     }
     std::move(bodies_.begin(), bodies_.end(), std::back_inserter(scene_.bodies));
+    std::move(links_.begin(), links_.end(), std::back_inserter(scene_.bodies));
     take_warnings();
     scene_.robots.clear();
     scene_.text_digest = loaded_.input_digest;
@@ -150,6 +156,10 @@ class RobotsAsBodies {
     return link && other && link->robot == other->robot;
   }
 
+  [[nodiscard]] bool has_grips(std::size_t member) const {
+    return tool_with_grips(loaded_.robots->robot_link(member)->robot) != nullptr;
+  }
+
   [[nodiscard]] bool meet_at_start(std::size_t a, std::size_t b) const {
     const RobotScene& robots = *loaded_.robots;
     Workspace workspace;
@@ -180,29 +190,79 @@ class RobotsAsBodies {
     }
   }
 
-  void add(std::size_t robot) {
+  [[nodiscard]] HapticToolQuestion* tool_with_grips(std::size_t robot) const {
+    for (HapticToolQuestion& tool : scene_.haptics->tools) {
+      if (tool.robot == robot && !tool.grips.empty()) {
+        return &tool;
+      }
+    }
+    return nullptr;
+  }
+
+  /// A body at a pose of the geometries of some members.
+  Body body_of_members(const std::string& name, const Pose& X_WB, std::size_t from, std::size_t to,
+                       std::size_t number) {
     const RobotScene& robots = *loaded_.robots;
-    const SceneRobot& described = scene_.robots[robot];
-    const Pose base = std::get<FixedMotion>(described.base).pose;
-    const Isometry3d X_RW = isometry(base).inverse();
-    const std::size_t first = robots.first_member(robot);
+    const Isometry3d X_BW = isometry(X_WB).inverse();
     Mesh mesh;
     bool is_solid = true;
-    for (std::size_t m = first; m < first + described.model.links().size(); ++m) {
+    for (std::size_t m = from; m < to; ++m) {
       const auto geometries = robots.geometries(m);
       for (std::size_t g = 0; g < geometries.size(); ++g) {
-        append_geometry(geometries[g].shape, X_RW * isometry(robots.geometry_pose(m, g, 0.0)),
+        append_geometry(geometries[g].shape, X_BW * isometry(robots.geometry_pose(m, g, 0.0)),
                         mesh);
         is_solid = is_solid && is_filled(geometries[g].shape);
       }
       if (!geometries.empty()) {
-        body_of_[m] = first_ + robot;
-        ++counts_[first_ + robot];
+        body_of_[m] = number;
+        ++counts_[number];
       }
     }
-    Body body{.name = described.name, .shape = {}, .motion = FixedMotion{base}};
+    Body body{.name = name, .shape = {}, .motion = FixedMotion{X_WB}};
     body.shape.source = Shape(std::move(mesh), 0.0, is_solid ? Filling::solid : Filling::surface);
-    bodies_.push_back(std::move(body));
+    return body;
+  }
+
+  void add(std::size_t robot) {
+    const SceneRobot& described = scene_.robots[robot];
+    const std::size_t first = loaded_.robots->first_member(robot);
+    bodies_.push_back(body_of_members(described.name, std::get<FixedMotion>(described.base).pose,
+                                      first, first + described.model.links().size(),
+                                      first_ + robot));
+  }
+
+  /// Adds a body for each link of a tool, and what its links ignore of each other.
+  void add_links(std::size_t robot, HapticToolQuestion& tool) {
+    const SceneRobot& described = scene_.robots[robot];
+    const RobotScene& robots = *loaded_.robots;
+    const std::size_t first = robots.first_member(robot);
+    const MovingLinks found = find_moving_links(robots, robot, described, tool);
+    const std::size_t of_tool = first + found.body;
+    bodies_.push_back(body_of_members(described.name, std::get<FixedMotion>(described.base).pose,
+                                      of_tool, of_tool + 1, first_ + robot));
+    for (std::size_t k = 0; k < tool.links.size(); ++k) {
+      const std::size_t member = first + found.number[k];
+      if (robots.geometries(member).empty()) {
+        continue;
+      }
+      const std::size_t number = first_ + scene_.robots.size() + links_.size();
+      tool.links[k].body = number;
+      links_.push_back(body_of_members(robots.name(member), robots.pose(member, 0.0), member,
+                                       member + 1, number));
+      const auto ignore = [&](std::optional<std::size_t> other, std::size_t other_member,
+                              std::size_t other_number) {
+        if (are_connected(tool, k, other) ||
+            !robots.margin({std::min(other_member, member), std::max(other_member, member)})) {
+          of_links_.push_back({other_number, number});
+        }
+      };
+      ignore({}, of_tool, first_ + robot);
+      for (std::size_t other = 0; other < k; ++other) {
+        if (tool.links[other].body) {
+          ignore(other, first + found.number[other], *tool.links[other].body);
+        }
+      }
+    }
   }
 
   /// The body that a member is now; none for a link without geometry.
@@ -220,7 +280,11 @@ class RobotsAsBodies {
   }
 
   [[nodiscard]] const std::string& name(std::size_t body) const {
-    return body < first_ ? scene_.bodies[body].name : bodies_[body - first_].name;
+    if (body < first_) {
+      return scene_.bodies[body].name;
+    }
+    const std::size_t number = body - first_;
+    return number < bodies_.size() ? bodies_[number].name : links_[number - bodies_.size()].name;
   }
 
   void take_ignored_pairs() {
@@ -228,7 +292,8 @@ class RobotsAsBodies {
     for (const auto& [first, second] : scene_.ignored_pairs) {
       const std::optional<std::size_t> a = body_of(first);
       const std::optional<std::size_t> b = body_of(second);
-      if (a && b && *a != *b) {
+      const bool is_inside = are_of_one_robot(first, second) && has_grips(first);
+      if (a && b && *a != *b && !is_inside) {
         ignored[{std::min(*a, *b), std::max(*a, *b)}].insert(
             {std::min(first, second), std::max(first, second)});
       }
@@ -243,6 +308,7 @@ class RobotsAsBodies {
       }
       scene_.ignored_pairs.push_back(bodies);
     }
+    scene_.ignored_pairs.insert(scene_.ignored_pairs.end(), of_links_.begin(), of_links_.end());
   }
 
   void take_group(BodyGroup& group) const {
@@ -266,6 +332,8 @@ class RobotsAsBodies {
   LoadedScene loaded_;
   std::size_t first_;
   std::vector<Body> bodies_;                         // Of robots.
+  std::vector<Body> links_;                          // Of tools with grips.
+  std::vector<BodyPair> of_links_;                   // That these ignore of each other.
   std::map<std::size_t, std::size_t> body_of_ = {};  // Of members that are links.
   std::map<std::size_t, std::size_t> counts_ = {};   // Links with geometry of such a body.
 };

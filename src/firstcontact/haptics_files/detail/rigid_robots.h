@@ -1,5 +1,5 @@
 /// @file
-/// Robots at rest as bodies: a hand in one posture as a tool, an arm as what it meets.
+/// Robots as bodies: a hand as a tool, an arm at rest as what it meets.
 
 #pragma once
 
@@ -10,13 +10,17 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Puts one body in place of each robot, behind the bodies of the scene: a mesh of the triangles of
-/// all its links.
+/// Puts one body in place of each robot at rest, behind the bodies of the scene: a mesh of the
+/// triangles of all its links.
 ///
 /// The body has the name of the robot, and the frame of its root link. Its vertices are rounded to
 /// doubles, which define it from then on. Curved geometries become the triangles that enclose them:
 /// those of cylinders and cones, and for spheres those of make_ellipsoid. It is solid where all of
 /// its geometries are. Tools that are robots become tools that are bodies.
+///
+/// A tool with grips has a body for each link with geometry. The body of the tool has the robot's
+/// name, and one link (find_moving_links()). The others are named "robot/link", and stand behind
+/// all robots.
 ///
 /// @param scene  with haptics
 /// @throws std::invalid_argument  names the robot: it moves, has dynamics or tracking errors, is

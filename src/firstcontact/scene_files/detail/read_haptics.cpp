@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/scene_files/detail/read_grips.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
 
 namespace firstcontact::detail {
@@ -21,9 +22,9 @@ class HapticsReader {
   HapticsReader(const Scene& scene, const JsonReader& read) : scene_(scene), read_(read) {}
 
   HapticQuestion haptics(const JsonValue& value) const {
-    const JsonObject& object =
-        read_.object(value, {{"tools", "contact_distance", "friction", "force_rate", "contact_rate",
-                              "max_force", "max_torque", "force_slew", "torque_slew"}});
+    const JsonObject& object = read_.object(
+        value, {{"tools", "contact_distance", "friction", "force_rate", "contact_rate", "max_force",
+                 "max_torque", "force_slew", "torque_slew", "max_grip_effort"}});
     HapticQuestion haptics;
     const JsonValue& tools = read_.member(value, "tools");
     for (const JsonValue& element : read_.array(tools, "an array of tools")) {
@@ -42,6 +43,7 @@ class HapticsReader {
     take_not_negative(object, "max_torque", haptics.max_torque);
     take_positive(object, "force_slew", haptics.force_slew);
     take_positive(object, "torque_slew", haptics.torque_slew);
+    take_not_negative(object, "max_grip_effort", haptics.max_grip_effort);
     require_rates(value, haptics);
     return haptics;
   }
@@ -61,9 +63,10 @@ class HapticsReader {
   }
 
   HapticToolQuestion tool(const JsonValue& value, const HapticQuestion& before) const {
-    const JsonObject& object = read_.object(
-        value, {{"body", "robot", "stiffness", "angular_stiffness", "damping", "centre", "scale",
-                 "device_axes", "handle", "begins_at_handle", "clutch_button", "dead_man_button"}});
+    const JsonObject& object =
+        read_.object(value, {{"body", "robot", "stiffness", "angular_stiffness", "damping",
+                              "centre", "scale", "device_axes", "handle", "begins_at_handle",
+                              "clutch_button", "dead_man_button", "grips"}});
     HapticToolQuestion tool;
     const JsonValue* robot = find(object, "robot");
     const bool has_body = find(object, "body") != nullptr;
@@ -100,6 +103,12 @@ class HapticsReader {
     }
     tool.clutch_button = button(object, "clutch_button");
     tool.dead_man_button = button(object, "dead_man_button");
+    if (const JsonValue* grips = find(object, "grips")) {
+      if (!tool.robot) {
+        read_.fail(*grips, "expected \"grips\" with a \"robot\" alone: a body has no joints");
+      }
+      tool.grips = read_grips(*grips, scene_.robots[*tool.robot], read_);
+    }
     return tool;
   }
 

@@ -1,0 +1,24 @@
+/// @file
+/// "grips" of a haptic tool: joints of a robot that values of a device move.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/scene/haptic_question.h>
+#include <firstcontact/text/json_reader.h>
+
+namespace firstcontact {
+struct SceneRobot;
+}  // namespace firstcontact
+
+namespace firstcontact::detail {
+
+/// @param robot  that has the joints
+/// @throws ParseError  a joint that the robot lacks, that is fixed, has no single coordinate,
+///         follows another or stands twice; positions out of its limits; too many grips
+[[nodiscard]] std::vector<HapticGripQuestion> read_grips(const JsonValue& value,
+                                                         const SceneRobot& robot,
+                                                         const JsonReader& read);
+
+}  // namespace firstcontact::detail
