@@ -182,6 +182,33 @@ TEST(Recording, NamesKeysThatItDoesNotTake) {
             "##");
 }
 
+TEST(Recording, HasColumnsForGrips) {
+  Recording recording = random_recording(DeviceKind::pose, 3);
+  recording.capabilities.grips = 3;
+  recording.capabilities.max_grip_effort = 0.25;
+  for (DeviceState& sample : recording.samples) {
+    sample.grips[1] = 1e-3 * static_cast<double>(sample.sequence % 1000);
+    sample.grips[2] = -0.1;
+  }
+  const Recording read = parse_recording(write_recording(recording), "hand.csv");
+  EXPECT_EQ(read.capabilities.grips, 3);
+  EXPECT_EQ(read.capabilities.max_grip_effort, 0.25);
+  for (std::size_t k = 0; k < read.samples.size(); ++k) {
+    EXPECT_EQ(read.samples[k].grips, recording.samples[k].grips);
+  }
+  const auto with = [](const std::string& columns, const std::string& cells) {
+    return refusal("# firstcontact recording: 1\ntime_ns,sequence,x,y,z,qw,qx,qy,qz," + columns +
+                   "\n0,0,0,0,0,1,0,0,0," + cells + "\n");
+  };
+  EXPECT_EQ(with("grip0", "0.5"), "no error");
+  EXPECT_EQ(with("grip0", "nan"),
+            "hand.csv:3: column 10 (grip0): expected a number of at most 1e6, got 'nan'");
+  EXPECT_EQ(with("grip1", "0"), "hand.csv:2: column 'grip0' is missing: grips count from grip0 on");
+  EXPECT_EQ(with("grip0,grip0", "0,0"), "hand.csv:2: column 11 (grip0): stands twice");
+  EXPECT_EQ(with("grip16", "0"),
+            "hand.csv:2: column 10 (grip16): unknown column; grips have the names grip0 to grip15");
+}
+
 TEST(Recording, WritesNoNamesThatCouldNotBeRead) {
   DeviceCapabilities capabilities;
   capabilities.name = "two\nlines";

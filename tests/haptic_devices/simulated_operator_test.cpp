@@ -387,6 +387,29 @@ TEST(SimulatedOperator, LimitsThePullOfTheHand) {
   EXPECT_NEAR(hand.truth().velocity.x(), 5.0 / 0.5 * seconds(200), 0.02);
 }
 
+TEST(SimulatedOperator, OpensAndClosesItsFingers) {
+  SimulatedOperatorOptions options;
+  options.fingers = {.grips = 2, .period = 0.5, .closed = 0.8};
+  SimulatedOperator hand(options);
+  EXPECT_EQ(hand.capabilities().grips, 2);
+  EXPECT_GT(hand.capabilities().max_grip_effort, 0.0);
+  EXPECT_EQ(SimulatedOperator().capabilities().grips, 0);
+  EXPECT_EQ(SimulatedOperator().capabilities().max_grip_effort, 0.0);
+  double least = 1.0;
+  double greatest = 0.0;
+  bool are_alike = true;
+  for (std::int64_t now = 0; now < 2'000'000'000; now += 1'000'000) {
+    const DeviceState state = hand.read(now);
+    least = std::min(least, state.grips[0]);
+    greatest = std::max(greatest, state.grips[0]);
+    are_alike = are_alike && state.grips[0] == state.grips[1];
+    ASSERT_EQ(state.grips[2], 0.0);
+  }
+  EXPECT_EQ(least, 0.0);
+  EXPECT_NEAR(greatest, 0.8, 1e-3);
+  EXPECT_FALSE(are_alike);
+}
+
 TEST(SimulatedOperator, RefusesOptionsOutsideTheirRange) {
   const auto refused = [](const std::function<void(SimulatedOperatorOptions&)>& change) {
     SimulatedOperatorOptions options;

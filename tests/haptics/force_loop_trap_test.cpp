@@ -22,6 +22,7 @@
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
 
+#include "haptics/grip_scenes.h"
 #include "haptics/haptic_scenes.h"
 
 namespace {
@@ -92,6 +93,55 @@ class PressedCube {
   MailSlot<HapticContactSet> slot_;
   std::int64_t now_ = 0;
 };
+
+/// Jaws that hold a cube, and ticks of it.
+class HoldingJaws {
+ public:
+  HoldingJaws() : contacts_(scene()), forces_(contacts_.scene(), {one_grip(kJawWay)}) {
+    for (int k = 0; k < 5; ++k) {
+      (void)contacts_.advance({.poses = std::array{Pose{}}, .joints = std::array{0.03, 0.03}}, 1e-3,
+                              0);
+    }
+    set_ = contacts_.contact_set();
+  }
+
+  /// @returns  the ticks at which the hand felt its grip
+  int ticks(int count) {
+    int felt = 0;
+    DeviceState device;
+    device.status = DeviceStatus::live;
+    for (int k = 0; k < count; ++k) {
+      now_ += 250'000;
+      device.grips[0] = 0.7 + 0.2 * std::sin(0.01 * k);
+      set_.sequence += 1;
+      set_.stamp_ns = now_;
+      const ForceTick& tick = forces_.tick(now_, set_, std::array{device});
+      felt += tick.tools[0].command.grips[0] < 0.0 ? 1 : 0;
+    }
+    return felt;
+  }
+
+ private:
+  static HapticScene scene() {
+    HapticScene made;
+    made.tools.push_back(jaws(0.5));
+    made.bodies.push_back(body_at("cube", make_box({0.03, 0.03, 0.03}), {0.0, 0.0, -0.05}, 0.5));
+    return made;
+  }
+
+  ContactLoop contacts_;
+  ForceLoop forces_;
+  HapticContactSet set_;
+  std::int64_t now_ = 0;
+};
+
+TEST(ForceLoop, AllocatesNothingForFingers) {
+  HoldingJaws jaws_on_cube;
+  const long before = allocations;
+  const int felt = jaws_on_cube.ticks(2000);
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(felt, 500);
+}
 
 TEST(ForceLoop, AllocatesNothing) {
   const long before_all = allocations;

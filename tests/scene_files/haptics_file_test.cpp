@@ -58,6 +58,14 @@ TEST(HapticsFile, HasTheDefaultsOfItsStruct) {
   EXPECT_FALSE(tool.dead_man_button);
 }
 
+TEST(HapticsFile, HasGripsOfRobotsAlone) {
+  EXPECT_NE(haptics_said(R"({"tools": [{"body": "peg", "grips": []}]})")
+                .find("expected \"grips\" with a \"robot\" alone"),
+            std::string::npos);
+  EXPECT_EQ(haptics_of(R"({"tools": [{"body": "peg"}], "max_grip_effort": 3})").max_grip_effort,
+            3.0);
+}
+
 TEST(HapticsFile, TakesEveryKey) {
   const HapticQuestion read = haptics_of(
       R"({"tools": [{"body": "plate"}, {"body": "peg", "stiffness": 1, "angular_stiffness": 2,
