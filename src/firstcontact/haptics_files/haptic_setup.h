@@ -20,7 +20,7 @@ struct Scene;
 struct HapticSetup {
   HapticScene scene = {};
   HapticSessionOptions options = {};
-  /// Of the tools, then of the others, then of the links that grips move.
+  /// The bodies of the tools, then of the others, then of the links that grips move.
   std::vector<std::size_t> bodies = {};
 };
 
