@@ -35,6 +35,7 @@ void ConeProjection::clear() noexcept {
   last_error_.clear();
   error_.clear();
   active_count_ = 0;
+  factored_ = 0;
 }
 
 void ConeProjection::add(const ConeContact& contact) noexcept {
@@ -108,11 +109,12 @@ ConeProjection::Violated ConeProjection::most_violated(const Coordinates& x) con
   return most;
 }
 
-/// Cholesky's factor of the products of the active rows.
+/// Cholesky's factor of the products of the active rows. Rows before the first that changed stay.
 ///
 /// @returns  false where they depend on each other
 bool ConeProjection::factorise() noexcept {
-  for (std::size_t i = 0; i < active_count_; ++i) {
+  for (std::size_t i = factored_; i < active_count_; ++i) {
+    factored_ = i;
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = dot(active_[i].row, active_[j].row);
       const double whole = sum;
@@ -128,6 +130,7 @@ bool ConeProjection::factorise() noexcept {
       }
     }
   }
+  factored_ = active_count_;
   return true;
 }
 
@@ -151,6 +154,7 @@ void ConeProjection::remove(std::size_t k) noexcept {
     active_[i - 1] = active_[i];
   }
   --active_count_;
+  factored_ = std::min(factored_, k);
 }
 
 /// Begins where the active half spaces are met with equality; those that would pull are dropped.

@@ -118,6 +118,7 @@ class ConeProjection {
   std::array<Cut, kMostCoordinates> active_ = {};
   std::size_t active_count_ = 0;
   std::array<std::array<double, kMostCoordinates>, kMostCoordinates> factor_ = {};  // Lower.
+  std::size_t factored_ = 0;  // Rows of it that are those of the active cuts.
   Coordinates x_ = {};
   int pivots_ = 0;
 };
