@@ -83,4 +83,38 @@ extern "C" const firstcontact_device_plugin_functions* firstcontact_device_plugi
 #endif
   return &functions;
 }
+
+#if defined(FAULT_GRIPS) || defined(FAULT_BAD_GRIPS)
+namespace {
+
+double last_effort = 0.0;
+
+void describe_grips(void*, firstcontact_device_grip_abilities* abilities) {
+#ifdef FAULT_BAD_GRIPS
+  abilities->grips = 17;
+#else
+  abilities->grips = 2;
+#endif
+  abilities->max_grip_effort = 0.5;
+}
+
+void read_grips(void*, double values[FIRSTCONTACT_DEVICE_MOST_GRIPS]) {
+  values[0] = samples % 4 == 3 ? std::nan("") : 0.25;
+  values[1] = last_effort;
+  values[2] = 9.0;  // Not one of its grips.
+}
+
+void command_grips(void*, std::int64_t, const double efforts[FIRSTCONTACT_DEVICE_MOST_GRIPS]) {
+  last_effort = efforts[0] + efforts[2];
+}
+
+}  // namespace
+
+extern "C" const firstcontact_device_grip_functions* firstcontact_device_plugin_grips(void) {
+  static const firstcontact_device_grip_functions functions = {
+      FIRSTCONTACT_DEVICE_PLUGIN_ABI, sizeof(firstcontact_device_grip_abilities), describe_grips,
+      read_grips, command_grips};
+  return &functions;
+}
+#endif
 #endif

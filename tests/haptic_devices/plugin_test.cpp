@@ -75,6 +75,25 @@ TEST(DevicePlugin, IsRefusedForAReason) {
             "its device has a max_torque that is negative or no number");
 }
 
+TEST(DevicePlugin, HasGrips) {
+  const auto device = load_device_plugin(PLUGIN_GRIPS);
+  EXPECT_EQ(device->capabilities().grips, 2);
+  EXPECT_EQ(device->capabilities().max_grip_effort, 0.5);
+  EXPECT_EQ(load_device_plugin(PLUGIN_NONE)->capabilities().grips, 0);
+  ForceCommand command;
+  command.grips = {-0.7, 0.0, 3.0};
+  device->command(command, 5);
+  DeviceState state = device->read(6);
+  EXPECT_EQ(state.grips[0], 0.25);
+  EXPECT_EQ(state.grips[1], -0.5);  // As it is limited; the third is not one of its grips.
+  EXPECT_EQ(state.grips[2], 0.0);
+  (void)device->read(7);
+  state = device->read(8);  // A value that is no number.
+  EXPECT_EQ(state.status, DeviceStatus::lost);
+  EXPECT_EQ(state.grips[0], 0.25);
+  EXPECT_EQ(plugin_refusal(PLUGIN_BAD_GRIPS), "its device has 17 grips; expected 0 to 16");
+}
+
 TEST(ExamplePlugin, MovesOnItsOrbit) {
   const auto device = load_device_plugin(PLUGIN_ORBIT, "radius=0.05");
   EXPECT_EQ(device->capabilities().name, "orbit");

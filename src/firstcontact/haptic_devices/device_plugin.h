@@ -115,12 +115,51 @@ struct firstcontact_device_plugin_functions {
   void (*close)(void* device);
 };
 
+/** Values of grips that a device senses at most. */
+#define FIRSTCONTACT_DEVICE_MOST_GRIPS 16
+
+/** The abilities of a glove or a gripper. All is 0 before the plug-in fills it in. */
+struct firstcontact_device_grip_abilities {
+  int32_t grips;          /**< 0 to FIRSTCONTACT_DEVICE_MOST_GRIPS: values that are sensed. */
+  int32_t reserved;       /**< 0. */
+  double max_grip_effort; /**< [J]  Of each grip; 0 where none is driven. */
+};
+
+/** The functions of a plug-in whose device has grips, beside the others. */
+struct firstcontact_device_grip_functions {
+  uint32_t abi;            /**< FIRSTCONTACT_DEVICE_PLUGIN_ABI, as the plug-in was compiled. */
+  uint32_t abilities_size; /**< sizeof(struct firstcontact_device_grip_abilities) */
+
+  /** Fills in the abilities. Called once behind `describe` of the device. */
+  void (*describe)(void* device, struct firstcontact_device_grip_abilities* abilities);
+
+  /**
+   * Gives the values of the sample that `read` of the device gave last: 0 open, 1 closed. The same
+   * rules as for that function.
+   */
+  void (*read)(void* device, double values[FIRSTCONTACT_DEVICE_MOST_GRIPS]);
+
+  /**
+   * Commands the efforts on the values from now on [J]. Called behind `command` of the device, by
+   * the same rules. Null where no grip is driven.
+   */
+  void (*command)(void* device, int64_t now_ns,
+                  const double efforts[FIRSTCONTACT_DEVICE_MOST_GRIPS]);
+};
+
 /** The one function that a plug-in exports. The structure lives as long as the library. */
 #if defined(__GNUC__)
 __attribute__((visibility("default")))
 #endif
 const struct firstcontact_device_plugin_functions*
 firstcontact_device_plugin(void);
+
+/** A second one, of a plug-in whose device has grips. One that has none leaves it out. */
+#if defined(__GNUC__)
+__attribute__((visibility("default")))
+#endif
+const struct firstcontact_device_grip_functions*
+firstcontact_device_plugin_grips(void);
 
 #ifdef __cplusplus
 }

@@ -76,6 +76,43 @@ const Functions& functions_of(const Library& library, const std::string& path) {
   return *functions;
 }
 
+using GripFunctions = firstcontact_device_grip_functions;
+using GripAbilities = firstcontact_device_grip_abilities;
+
+constexpr const char* kGripEntry = "firstcontact_device_plugin_grips";
+static_assert(kMostGrips == FIRSTCONTACT_DEVICE_MOST_GRIPS);
+
+/// Null where the plug-in has no grips.
+const GripFunctions* grip_functions_of(const Library& library, const std::string& path) {
+  void* entry = ::dlsym(library.get(), kGripEntry);
+  if (entry == nullptr) {
+    return nullptr;
+  }
+  const GripFunctions* functions = reinterpret_cast<const GripFunctions* (*)()>(entry)();
+  if (functions == nullptr || functions->abi != FIRSTCONTACT_DEVICE_PLUGIN_ABI ||
+      functions->abilities_size != sizeof(GripAbilities) || functions->describe == nullptr ||
+      functions->read == nullptr) {
+    throw ParseError(path, std::string(kGripEntry) +
+                               "() gave functions of another version or size, or describe and "
+                               "read are missing; compile it with the device_plugin.h of this "
+                               "version");
+  }
+  return functions;
+}
+
+void take_grips(const GripAbilities& abilities, bool has_command, const std::string& path,
+                DeviceCapabilities& capabilities) {
+  if (abilities.grips < 0 || abilities.grips > static_cast<int>(kMostGrips)) {
+    throw ParseError(path, "its device has " + std::to_string(abilities.grips) +
+                               " grips; expected 0 to " + std::to_string(kMostGrips));
+  }
+  if (!(abilities.max_grip_effort >= 0.0)) {
+    throw ParseError(path, "its device has a max_grip_effort that is negative or no number");
+  }
+  capabilities.grips = abilities.grips;
+  capabilities.max_grip_effort = has_command ? abilities.max_grip_effort : 0.0;
+}
+
 template <std::size_t n>
 std::string text_of(const char (&text)[n]) {
   return {text, ::strnlen(text, n)};
@@ -153,9 +190,9 @@ DeviceState plugin_state(const Sample& sample) {
 
 class PluginDevice : public Device {
  public:
-  PluginDevice(Library library, const Functions& functions, const std::string& path,
-               const std::string& settings)
-      : library_(std::move(library)), functions_(functions) {
+  PluginDevice(Library library, const Functions& functions, const GripFunctions* grips,
+               const std::string& path, const std::string& settings)
+      : library_(std::move(library)), functions_(functions), grips_(grips) {
     std::array<char, 512> problem{};
     device_ = functions_.open(settings.c_str(), problem.data(), problem.size());
     problem.back() = '\0';
@@ -168,6 +205,11 @@ class PluginDevice : public Device {
       Abilities abilities{};
       functions_.describe(device_, &abilities);
       capabilities_ = plugin_capabilities(abilities, path);
+      if (grips_ != nullptr) {
+        GripAbilities of_grips{};
+        grips_->describe(device_, &of_grips);
+        take_grips(of_grips, grips_->command != nullptr, path, capabilities_);
+      }
     } catch (...) {
       functions_.close(device_);
       throw;
@@ -183,7 +225,8 @@ class PluginDevice : public Device {
   [[nodiscard]] DeviceState read(std::int64_t now_ns) noexcept override {
     Sample sample{};
     functions_.read(device_, now_ns, &sample);
-    const DeviceState state = plugin_state(sample);
+    DeviceState state = plugin_state(sample);
+    read_grips(state);
     newest_status_.store(state.status, std::memory_order_relaxed);
     if (state.status != DeviceStatus::live) {
       return detail::quiet(last_, state.status);
@@ -208,6 +251,9 @@ class PluginDevice : public Device {
   void command(const ForceCommand& command, std::int64_t now_ns) noexcept override {
     const ForceCommand allowed = limited(command, capabilities_);
     functions_.command(device_, now_ns, allowed.force_D.data(), allowed.torque_D.data());
+    if (grips_ != nullptr && grips_->command != nullptr) {
+      grips_->command(device_, now_ns, allowed.grips.data());
+    }
   }
 
   [[nodiscard]] DeviceCounts counts() const override {
@@ -226,6 +272,17 @@ class PluginDevice : public Device {
   }
 
  private:
+  void read_grips(DeviceState& state) const noexcept {
+    if (grips_ == nullptr) {
+      return;
+    }
+    std::array<double, kMostGrips> values{};
+    grips_->read(device_, values.data());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(capabilities_.grips); ++k) {
+      state.grips[k] = values[k];
+    }
+  }
+
   /// Rate devices need give no pose.
   [[nodiscard]] bool sensible(const DeviceState& state) const noexcept {
     DeviceState checked = state;
@@ -237,6 +294,7 @@ class PluginDevice : public Device {
 
   Library library_;
   const Functions& functions_;
+  const GripFunctions* grips_;  // Null without grips.
   void* device_ = nullptr;
   DeviceCapabilities capabilities_;
   DeviceState last_;
@@ -252,7 +310,9 @@ std::unique_ptr<Device> load_device_plugin(const std::filesystem::path& path,
                                            const std::string& settings) {
   Library library = load_library(path);
   const Functions& functions = functions_of(library, path.string());
-  return std::make_unique<PluginDevice>(std::move(library), functions, path.string(), settings);
+  const GripFunctions* grips = grip_functions_of(library, path.string());
+  return std::make_unique<PluginDevice>(std::move(library), functions, grips, path.string(),
+                                        settings);
 }
 
 }  // namespace firstcontact
