@@ -1,5 +1,7 @@
 """Tools that follow haptic devices."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -87,3 +89,21 @@ def test_refuses_what_makes_no_sense():
     session = fc.HapticSession(SCENE)
     with pytest.raises(ValueError, match="each tool"):
         session.step([])
+
+
+def test_moves_fingers_by_grips():
+    scene = Path(__file__).parents[2] / "benchmarks/haptics/scenes/jaws_on_cube.json"
+    session = fc.HapticSession(scene)
+    assert session.joint_names == ["slide"]
+    down = [fc.Pose((0, 0, -0.015))]
+    for _ in range(1000):
+        tick = session.step(down, [], [[0.0]])
+    assert tick.joint_efforts.shape == (1,) and tick.grip_efforts == [[0.0]]
+    for _ in range(1000):
+        tick = session.step(down, grips=[[1.0]])
+    # Jaws at 35 mm hold a cube of 40 mm.
+    assert session.joints[0] == pytest.approx(0.015, abs=2e-5)
+    assert tick.joint_efforts[0] == pytest.approx(1000 * (0.015 - 0.035), rel=5e-3)
+    assert tick.grip_efforts[0][0] == pytest.approx(0.035 * tick.joint_efforts[0])
+    with pytest.raises(ValueError, match="tool 0 has 1 grips, got 2 values"):
+        session.step(down, grips=[[0.0, 0.0]])

@@ -1,5 +1,7 @@
 #include <firstcontact/haptics/haptic_session.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -31,6 +33,7 @@ namespace {
 struct FeltTick {
   ForceTick tick;
   std::size_t tools = 0;
+  std::array<std::size_t, kMostTools> grips = {};
 
   [[nodiscard]] py::array rows(Eigen::Vector3d ToolTick::*what) const {
     std::vector<Eigen::Vector3d> found;
@@ -46,6 +49,21 @@ struct FeltTick {
       found.push_back(tick.tools[k].command.*what);
     }
     return owning(std::move(found));
+  }
+
+  /// Of the device's grips, for each tool as many as it has.
+  [[nodiscard]] std::vector<std::vector<double>> grip_efforts() const {
+    std::vector<std::vector<double>> found;
+    for (std::size_t k = 0; k < tools; ++k) {
+      const auto& efforts = tick.tools[k].command.grips;
+      found.emplace_back(efforts.begin(), efforts.begin() + static_cast<std::ptrdiff_t>(grips[k]));
+    }
+    return found;
+  }
+
+  [[nodiscard]] py::array joint_efforts() const {
+    return owning(
+        std::vector<double>(tick.joint_efforts.begin(), tick.joint_efforts.begin() + tick.joints));
   }
 
   [[nodiscard]] std::vector<Pose> targets() const {
@@ -74,9 +92,13 @@ class FeltSession {
         run_(loaded, setup_, session_.contacts().contact_distance()) {}
 
   FeltTick step(const std::vector<std::optional<Pose>>& poses,
-                const std::vector<std::uint32_t>& buttons) {
+                const std::vector<std::uint32_t>& buttons,
+                const std::vector<std::vector<double>>& grips) {
     if (!buttons.empty() && buttons.size() != poses.size()) {
       throw std::invalid_argument("step: expected as many buttons as poses, or none");
+    }
+    if (!grips.empty() && grips.size() != poses.size()) {
+      throw std::invalid_argument("step: expected grips of each tool, or none");
     }
     std::vector<DeviceState> states;
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -86,9 +108,13 @@ class FeltSession {
       state.status = poses[k] ? DeviceStatus::live : DeviceStatus::lost;
       state.X_DH = poses[k].value_or(Pose{});
       state.buttons = buttons.empty() ? 0U : buttons[k];
+      take_grips(grips.empty() ? std::vector<double>() : grips[k], k, state);
       states.push_back(state);
     }
-    const FeltTick felt{session_.step(states), setup_.scene.tools.size()};
+    FeltTick felt{.tick = session_.step(states), .tools = setup_.scene.tools.size()};
+    for (std::size_t k = 0; k < felt.tools; ++k) {
+      felt.grips[k] = grips_of(k);
+    }
     cycle_.reset();
     if (session_.cycle() != nullptr) {
       cycle_ = run_.step(*session_.cycle());
@@ -107,6 +133,21 @@ class FeltSession {
       found.push_back(session_.contacts().pose(k));
     }
     return found;
+  }
+
+  [[nodiscard]] py::array joints() const {
+    const auto joints = session_.contacts().joints();
+    return owning(std::vector<double>(joints.begin(), joints.end()));
+  }
+
+  [[nodiscard]] std::vector<std::string> joint_names() const {
+    std::vector<std::string> names;
+    for (const HapticTool& tool : setup_.scene.tools) {
+      for (const HapticJoint& joint : tool.joints) {
+        names.push_back(joint.name);
+      }
+    }
+    return names;
   }
 
   [[nodiscard]] py::array contacts(Eigen::Vector3d HapticContact::*what) const {
@@ -128,6 +169,20 @@ class FeltSession {
   }
 
  private:
+  [[nodiscard]] std::size_t grips_of(std::size_t tool) const {
+    return tool < setup_.options.mappings.size() ? setup_.options.mappings[tool].grips.size() : 0;
+  }
+
+  /// A tool's grips follow values of the device, or buttons: then theirs are not read.
+  void take_grips(const std::vector<double>& values, std::size_t tool, DeviceState& state) const {
+    if (!values.empty() && values.size() != grips_of(tool)) {
+      throw std::invalid_argument("step: tool " + std::to_string(tool) + " has " +
+                                  std::to_string(grips_of(tool)) + " grips, got " +
+                                  std::to_string(values.size()) + " values");
+    }
+    std::ranges::copy(values, state.grips.begin());
+  }
+
   static HapticSetup with_latency(HapticSetup setup, std::int64_t latency_ns) {
     setup.options.contact_latency_ns = latency_ns;
     return setup;
@@ -173,6 +228,10 @@ void bind_tick(py::module_& m) {
       .def_property_readonly(
           "torques_world", [](const FeltTick& t) { return t.rows(&ToolTick::torque_W); },
           "[N m] n×3, world axes.")
+      .def_property_readonly("grip_efforts", &FeltTick::grip_efforts,
+                             "[J] On the grips of each device: work by their values.")
+      .def_property_readonly("joint_efforts", &FeltTick::joint_efforts,
+                             "[N m or N] (n,), on the joints of all tools.")
       .def_property_readonly("targets", &FeltTick::targets,
                              "Poses of the tools that the devices ask for.")
       .def_property_readonly("faults", &FeltTick::faults,
@@ -205,10 +264,11 @@ The same on every run. One thread at a time may use a session.)")
 latency: [s] that a cycle of the contact loop takes.)")
       .def("step", &FeltSession::step, py::arg("poses"),
            py::arg("buttons") = std::vector<std::uint32_t>{},
+           py::arg("grips") = std::vector<std::vector<double>>{},
            R"(Makes the next tick of the force loop; returns a HapticTick.
 
 poses: of the handles, a Pose for each tool; None for a device that is lost. buttons: bits, one
-number for each tool.)")
+number for each tool. grips: for each tool the values of its grips, 0 open, 1 closed; all 0 without.)")
       .def_property_readonly(
           "time",
           [](const FeltSession& s) { return 1e-9 * static_cast<double>(s.session().time_ns()); },
@@ -220,6 +280,10 @@ number for each tool.)")
           },
           "[s] From tick to tick.")
       .def_property_readonly("poses", &FeltSession::poses, "Where the tools are.")
+      .def_property_readonly("joints", &FeltSession::joints,
+                             "[rad or m] (n,), where the joints of all tools are.")
+      .def_property_readonly("joint_names", &FeltSession::joint_names,
+                             "Of the joints that grips move, in the order of joints.")
       .def_property_readonly(
           "contact_points", [](const FeltSession& s) { return s.contacts(&HapticContact::point); },
           "[m] n×3, of the newest contacts.")
