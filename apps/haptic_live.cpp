@@ -3,6 +3,7 @@
 #include <variant>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
@@ -54,10 +55,30 @@ std::string HapticLive::page(const RunHeader& header, std::string_view page_temp
   std::string text = still.write(page_template, load_scene(header.scene, cache));
   text.insert(
       text.rfind("</body>"),
-      fmt::format("<script id=\"firstcontact-live\" type=\"application/json\">{{\"tool\":{}}}"
+      fmt::format("<script id=\"firstcontact-live\" type=\"application/json\">{{\"tool\":{}{}}}"
                   "</script>\n",
-                  setup_.bodies[tool_]));
+                  setup_.bodies[tool_],
+                  grips() == 0 ? std::string()
+                               : fmt::format(",\"links\":[{}],\"grips\":{}",
+                                             fmt::join(links(), ","), grips())));
   return text;
+}
+
+/// The bodies that hang on the tool.
+std::vector<std::size_t> HapticLive::links() const {
+  std::vector<std::size_t> found;
+  std::size_t next = first_link_;
+  for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+    for (const HapticLink& link : setup_.scene.tools[k].links) {
+      if (link.shape) {
+        if (k == tool_) {
+          found.push_back(setup_.bodies[next]);
+        }
+        ++next;
+      }
+    }
+  }
+  return found;
 }
 
 void HapticLive::take(const HapticCycle& cycle) {
@@ -83,6 +104,7 @@ std::string HapticLive::picture(const ForceTick& tick) {
   std::string text = fmt::format(R"({{"handle":[{}],"target":[{}],"force":[{}],"torque":[{}],)",
                                  numbers(handle(tool)), numbers(tool.target), numbers(tool.force_W),
                                  numbers(tool.torque_W));
+  text += grips() == 0 ? std::string() : fmt::format("\"grip\":{},", tool.device.grips[0]);
   text += "\"bodies\":[";
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     if (poses_[k]) {  // The first tool always has one.

@@ -36,6 +36,8 @@ class HapticLive {
   [[nodiscard]] std::string picture(const ForceTick& tick);
 
  private:
+  [[nodiscard]] std::vector<std::size_t> links() const;
+  [[nodiscard]] std::size_t grips() const { return setup_.options.mappings[tool_].grips.size(); }
   [[nodiscard]] Pose handle(const ToolTick& tool) const;
 
   const HapticSetup& setup_;

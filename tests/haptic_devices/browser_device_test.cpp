@@ -70,6 +70,11 @@ TEST(BrowserDevice, FollowsItsPageAndIsLostWithIt) {
     EXPECT_EQ(state_of_browser(device).status, DeviceStatus::live);
     EXPECT_EQ(state_of_browser(device).X_DH.position, Eigen::Vector3d(1.0, 2.0, 3.0));
     EXPECT_EQ(state_of_browser(device).X_DH.rotation.x(), 1.0);
+    EXPECT_EQ(state_of_browser(device).grips[0], 0.0);
+    page.send(R"({"position": [1, 2, 3], "rotation": [0, 1, 0, 0], "grip": 0.25})");
+    ASSERT_TRUE(eventually([&] { return device.counts().samples == 2; }));
+    EXPECT_EQ(state_of_browser(device).grips[0], 0.25);
+    EXPECT_EQ(state_of_browser(device).grips[kMostGrips - 1], 0.25);
     device.show("a picture");
     EXPECT_NE(page.receive().find("a picture"), std::string::npos);
   }
@@ -87,10 +92,11 @@ TEST(BrowserDevice, DropsPosesThatMakeNoSense) {
   for (const char* text : {"", "{}", R"({"position": [0, 0], "rotation": [1, 0, 0, 0]})",
                            R"({"position": [0, 0, 1e9], "rotation": [1, 0, 0, 0]})",
                            R"({"position": [0, 0, 0], "rotation": [0, 0, 0, 0]})",
-                           R"({"position": [0, 0, "x"], "rotation": [1, 0, 0, 0]})"}) {
+                           R"({"position": [0, 0, "x"], "rotation": [1, 0, 0, 0]})",
+                           R"({"position": [0, 0, 0], "rotation": [1, 0, 0, 0], "grip": 1e9})"}) {
     page.send(text);
   }
-  ASSERT_TRUE(eventually([&] { return device.counts().malformed == 6; }));
+  ASSERT_TRUE(eventually([&] { return device.counts().malformed == 7; }));
   EXPECT_EQ(state_of_browser(device).status, DeviceStatus::waiting);
   page.send(std::string(5000, ' '));  // Longer than any pose: the connection ends.
   EXPECT_TRUE(eventually([&] { return state_of_browser(device).status == DeviceStatus::lost; }));

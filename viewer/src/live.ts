@@ -7,6 +7,7 @@ import { add, compose, distance, length, turn, unit, unitQuaternion } from "./mo
 /// A picture of the session, 60 times a second.
 export interface Picture {
   readonly handle: readonly number[]; ///< Of the device: x, y, z [m], w, x, y, z.
+  readonly grip?: number; ///< Of the device: 0 open, 1 closed.
   readonly target: readonly number[]; ///< To which it leads the tool.
   readonly force: Vector3; ///< [N] On the hand.
   readonly torque: Vector3; ///< [N m]
@@ -14,10 +15,17 @@ export interface Picture {
   readonly contacts: readonly Vector3[];
 }
 
-/// The body that follows the mouse, of a page that is live; else null.
-export function liveTool(): number | null {
+/// What follows the mouse: a body, the links that hang on it, and how many grips move these.
+export interface LiveTool {
+  readonly tool: number;
+  readonly links?: readonly number[];
+  readonly grips?: number;
+}
+
+/// The tool of a page that is live; else null.
+export function liveTool(): LiveTool | null {
   const text = document.getElementById("firstcontact-live")?.textContent;
-  return text ? (JSON.parse(text) as { tool: number }).tool : null;
+  return text ? (JSON.parse(text) as LiveTool) : null;
 }
 
 export const poseFrom = ([x, y, z, w, i, j, k]: readonly number[]): Pose => ({
@@ -29,6 +37,7 @@ export const poseFrom = ([x, y, z, w, i, j, k]: readonly number[]): Pose => ({
 export class Handle {
   position: Vector3 = [0, 0, 0];
   rotation: QuaternionWxyz = [1, 0, 0, 0];
+  grip = 0; ///< 0 open, 1 closed.
 
   move(by: Vector3): void {
     this.position = add(this.position, by);
@@ -59,6 +68,7 @@ export class Connection {
       if (!this.begun) {
         this.begun = true;
         this.handle.set(poseFrom(picture.handle));
+        this.handle.grip = picture.grip ?? 0;
         this.send();
       }
       onPicture(picture);
@@ -68,8 +78,8 @@ export class Connection {
 
   send(): void {
     if (this.begun && this.socket.readyState === WebSocket.OPEN) {
-      const { position, rotation } = this.handle;
-      this.socket.send(JSON.stringify({ position, rotation }));
+      const { position, rotation, grip } = this.handle;
+      this.socket.send(JSON.stringify({ position, rotation, grip }));
     }
   }
 }

@@ -5,7 +5,7 @@ import { element } from "./core/dom";
 import { forceText, lengthText, number } from "./core/format";
 import type { Vector3 } from "./data/result";
 import { Display } from "./display";
-import { Connection, lead, poseFrom, type Picture } from "./live";
+import { Connection, lead, poseFrom, type LiveTool, type Picture } from "./live";
 import type { Model } from "./model";
 import { add, length, scale } from "./motion/vector";
 import { factList } from "./panels/facts";
@@ -19,7 +19,8 @@ const turnPerPixel = 0.005; // [rad]
 const wheelPixels = 0.2; // Of a drag, for each pixel of the wheel.
 
 /// Drags that begin on the tool move it; with Shift they turn it. The wheel pushes it meanwhile.
-function listenToDrags(view: SceneView, tool: number, connection: Connection): void {
+function listenToDrags(view: SceneView, live: LiveTool, connection: Connection): void {
+  const { tool, links = [] } = live;
   const { canvas, camera } = view;
   const side = (column: number): Vector3 =>
     new Vector().setFromMatrixColumn(camera.matrixWorld, column).toArray();
@@ -32,8 +33,10 @@ function listenToDrags(view: SceneView, tool: number, connection: Connection): v
   };
   const along = (right: number, x: number, up: number, y: number): Vector3 =>
     add(scale(x, side(right)), scale(y, side(up)));
-  const isTool = ({ x, y }: PointerEvent): boolean =>
-    (view.hitAt(x, y)?.object.userData as { body: number } | undefined)?.body === tool;
+  const isTool = ({ x, y }: PointerEvent): boolean => {
+    const hit = view.hitAt(x, y)?.object.userData as { body: number } | undefined;
+    return hit !== undefined && (hit.body === tool || links.includes(hit.body));
+  };
   let held = false;
   canvas.parentElement!.addEventListener(
     "pointerdown",
@@ -74,8 +77,26 @@ function listenToDrags(view: SceneView, tool: number, connection: Connection): v
   }
 }
 
-/// @param tool  the body that follows the mouse
-export function startLive(model: Model, tool: number): void {
+/// A slider for the fingers of a hand: it closes all grips together.
+function gripSlider(connection: () => Connection): HTMLElement {
+  const slider = element("input", {
+    type: "range",
+    min: "0",
+    max: "1",
+    step: "0.005",
+    value: "0",
+    "aria-label": "Grip",
+  }) as HTMLInputElement;
+  slider.addEventListener("input", () => {
+    connection().handle.grip = slider.valueAsNumber;
+    connection().send();
+  });
+  return element("label.grip", {}, "Grip ", slider);
+}
+
+/// @param live  what follows the mouse
+export function startLive(model: Model, live: LiveTool): void {
+  const { tool } = live;
   document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
   const display = new Display();
@@ -91,6 +112,9 @@ export function startLive(model: Model, tool: number): void {
     element("p.hint", {}, "Drag the tool to move it, with Shift to turn it."),
     element("p.hint", {}, "The wheel pushes a held tool away. Drags beside it turn the view."),
   );
+  if (live.grips) {
+    card.append(gripSlider(() => connection));
+  }
   const panel = element("aside.panel", { "aria-label": "Details" }, card);
   document.body.append(element("div.app.panel-open", {}, stage, panel));
   const view = new SceneView(model, new Player(model.duration, null), display, stage);
@@ -118,6 +142,6 @@ export function startLive(model: Model, tool: number): void {
   theme.name.subscribe(() => view.setColors(theme.color("stage"), theme.color("grid")));
   view.start();
   setTimeout(() => view.addEdges());
-  listenToDrags(view, tool, connection);
+  listenToDrags(view, live, connection);
   Object.assign(window, { firstcontact: { model, view, connection } });
 }

@@ -1,6 +1,7 @@
 /// The live page in a browser: the mouse moves a tool, which stops where it touches.
 
 import { spawn, type ChildProcess } from "node:child_process";
+import { fileURLToPath } from "node:url";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { Handle, lead, type Picture } from "../src/live";
@@ -49,6 +50,19 @@ const scene = {
   haptics: { tools: [{ body: "peg" }] },
 };
 
+const gripper = {
+  firstcontact: 1,
+  bodies: [{ name: "cube", shape: { box: { size: [0.04, 0.04, 0.04] } } }],
+  robots: [
+    {
+      name: "gripper",
+      urdf: fileURLToPath(new URL("../../benchmarks/haptics/scenes/jaws.urdf", import.meta.url)),
+      base: { position: [0, 0, 0.04] },
+    },
+  ],
+  haptics: { tools: [{ robot: "gripper", grips: [{ joints: { slide: [0, 0.035] } }] }] },
+};
+
 describe.skipIf(!canLook)("a live page", () => {
   let browser: Browser;
   let session: ChildProcess;
@@ -61,9 +75,9 @@ describe.skipIf(!canLook)("a live page", () => {
   afterEach(() => session?.kill("SIGKILL"));
 
   /// A session whose scene comes by standard input; its page is open.
-  async function open(): Promise<void> {
+  async function open(asked: object = scene): Promise<void> {
     session = spawn(tool!, ["haptics", "-", "--device", "mouse"]);
-    session.stdin!.end(JSON.stringify(scene));
+    session.stdin!.end(JSON.stringify(asked));
     const address = await new Promise<string>((resolve, reject) => {
       session.stdout!.once("data", (text: Buffer) => resolve(String(text).split(" ")[0]!));
       session.stderr!.once("data", (text: Buffer) => reject(new Error(String(text))));
@@ -97,5 +111,18 @@ describe.skipIf(!canLook)("a live page", () => {
     await page.mouse.up();
     await page.mouse.move(x, y);
     expect(await height()).toBeLessThan(0.032);
+    expect(await page.getByLabel("Grip").count()).toBe(0);
+  });
+
+  test("closes jaws until they touch, and no farther", { timeout: 60_000 }, async () => {
+    await open(gripper);
+    const right = (): Promise<number> =>
+      page.evaluate("firstcontact.view.bodies[2].group.matrix.elements[12]");
+    expect(await right()).toBeCloseTo(0.04, 3);
+    await page.getByLabel("Grip").fill("0.9");
+    await page.waitForFunction("firstcontact.view.bodies[2].group.matrix.elements[12] < 0.0251");
+    expect(await right()).toBeGreaterThan(0.025); // Half of the cube and of the jaw.
+    await page.getByLabel("Grip").fill("0");
+    await page.waitForFunction("firstcontact.view.bodies[2].group.matrix.elements[12] > 0.0399");
   });
 });

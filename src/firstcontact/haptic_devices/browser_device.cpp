@@ -63,7 +63,8 @@ std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& valu
   return numbers;
 }
 
-Pose handle_of(std::string_view text) {
+/// The pose of the handle and the value of the grips that a page sends.
+void take_handle(std::string_view text, DeviceState& state) {
   const JsonValue root = detail::parse_json(text, page_name());
   const JsonReader reader(root, page_name());
   const auto p = numbers_of<3>(reader, reader.member(root, "position"), detail::kMostOfSample);
@@ -72,7 +73,15 @@ Pose handle_of(std::string_view text) {
   if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
     reader.fail_expected("a quaternion of length 1", reader.member(root, "rotation"));
   }
-  return {Eigen::Vector3d(p[0], p[1], p[2]), rotation.normalized()};
+  double grip = 0.0;
+  if (const JsonValue* value = detail::find(std::get<detail::JsonObject>(root.value), "grip")) {
+    grip = reader.number(*value);
+    if (!(std::abs(grip) <= detail::kMostOfSample)) {
+      reader.fail_expected("a number of at most 1e6", *value);
+    }
+  }
+  state.X_DH = {Eigen::Vector3d(p[0], p[1], p[2]), rotation.normalized()};
+  state.grips.fill(grip);
 }
 
 }  // namespace
@@ -100,6 +109,7 @@ struct BrowserDevice::Data {
     capabilities.name = "mouse";
     capabilities.id = "127.0.0.1:" + std::to_string(port);
     capabilities.sensed = DegreesOfFreedom::all();
+    capabilities.grips = static_cast<int>(kMostGrips);
     report.set_problem("no page is open yet");
   }
 
@@ -148,7 +158,7 @@ struct BrowserDevice::Data {
 
   void take(const std::string& text) {
     try {
-      state.X_DH = handle_of(text);
+      take_handle(text, state);
       state.status = DeviceStatus::live;
       state.time_ns = steady_now_ns();
       ++state.sequence;

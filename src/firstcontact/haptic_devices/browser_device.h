@@ -21,8 +21,9 @@ struct BrowserDeviceOptions {
 ///
 /// The device serves its page to this machine only: over HTTP at "/", and by a WebSocket at "/live"
 /// of the same port. The page sends `{"position": [x, y, z], "rotation": [w, x, y, z]}`, the pose
-/// of the handle in D [m]. It receives the messages of `show`, at most 60 a second. A page that
-/// another site has opened is refused, and so is a second one while the first is there.
+/// of the handle in D [m]. With `"grip"` all grips have that value, else 0. It receives the
+/// messages of `show`, at most 60 a second. A page that another site has opened is refused, and so
+/// is a second one while the first is there.
 ///
 /// Before the first pose the status is `waiting`, without a page it is `lost`.
 class FIRSTCONTACT_API BrowserDevice : public Device {
