@@ -68,6 +68,60 @@ class Haptics(tool_test.ToolTest):
         for end in (".jsonl", ".csv"):
             self.assertEqual((self.folder / f"a{end}").read_bytes(), (self.folder / f"b{end}").read_bytes())
 
+    def jaws(self, grip={"joints": {"slide": [0, 0.035]}}):
+        """The scene of a gripper above a cube of 4 cm."""
+        path = pathlib.Path(__file__).parents[2] / "benchmarks/haptics/scenes/jaws_on_cube.json"
+        scene = json.loads(path.read_text())
+        scene["robots"][0]["urdf"] = str(path.parent / "jaws.urdf")
+        scene["haptics"]["tools"][0]["grips"] = [grip]
+        self.file("scene.json", scene)
+
+    def glove(self, grips, columns=",grip0"):
+        """A recording of a hand that goes down by 1 cm, then closes."""
+        lines = ["# firstcontact recording: 1", "time_ns,sequence,x,y,z,qw,qx,qy,qz" + columns]
+        for k, grip in enumerate(grips):
+            lines.append(f"{k * 1000000},{k + 1},0,0,{max(-0.015, -1e-4 * k)},1,0,0,0{grip}")
+        self.file("glove.csv", "\n".join(lines) + "\n")
+
+    def test_closes_jaws_on_a_cube(self):
+        self.jaws()
+        # 35 mm in 6 ms: 5.8 m/s.
+        self.glove([f",{min(1, max(0, (k - 300) / 6))}" for k in range(600)])
+        result = self.haptics("--device", "glove.csv", "--ticks", "ticks.csv", "--cycles", "cycles.csv")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("work from open to closed", result.stdout)
+        proof = json.loads(self.run_tool("verify", "run.jsonl", "--json").stdout)
+        self.assertEqual(proof["verdict"], "proven", proof)
+        self.assertGreater(proof["least_distance"], 0)
+        with open(self.folder / "cycles.csv", encoding="utf-8") as file:
+            cycles = list(csv.DictReader(file))
+        self.assertAlmostEqual(float(cycles[-1]["joint0"]), 0.015, delta=3e-5)
+        with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+            ticks = list(csv.DictReader(file))
+        self.assertEqual({float(tick["effort_j0"]) for tick in ticks[:1200]}, {0.0})
+        self.assertAlmostEqual(float(ticks[-1]["effort_j0"]), -20, delta=0.2)
+        self.assertAlmostEqual(float(ticks[-1]["command_g0"]), -0.7, delta=0.007)
+        lines = (self.folder / "run.jsonl").read_text().splitlines()
+        step = json.loads(lines[500])
+        step["bodies"][-1]["pieces"][0][1] += 0.02
+        lines[500] = json.dumps(step)
+        self.file("forged.jsonl", "\n".join(lines) + "\n")
+        self.assert_refused_with(self.run_tool("verify", "forged.jsonl"), '"gripper/left" jumps by 0.02 m')
+
+    def test_names_grips_that_nothing_closes(self):
+        self.jaws()
+        self.glove([""] * 10, columns="")
+        self.assert_writes_nothing(self.haptics("--device", "glove.csv"), "scene.json",
+                                   '"gripper" follow 1 values', 'give grips a "button"')
+        self.glove([",0"] * 5 + [",nan"])
+        self.assert_writes_nothing(self.haptics("--device", "glove.csv"), "glove.csv:8: column 10 (grip0)", "'nan'")
+        self.jaws({"joints": {"slid": [0, 0.035]}})
+        self.assert_writes_nothing(self.haptics("--device", "simulated"), "grips[0].joints.slid", 'expected one of "slide"')
+        self.jaws({"joints": {"slide": [0, 0.05]}})
+        self.assert_writes_nothing(self.haptics("--device", "simulated"), "within its limits, 0 to 0.036, got 0.05")
+        self.jaws({"joints": {"slide": [0, 0.035]}, "button": 0, "seconds": 0.1})
+        self.assertEqual(self.haptics("--device", "simulated", "--duration", "0.2").returncode, 0)
+
     def peak_memory(self, *arguments):
         """[bytes]  Of a session, however its allocator keeps what is freed."""
         process = self.start("haptics", "scene.json", "--device", "simulated", "--force", *arguments,
