@@ -319,6 +319,32 @@ TEST(Grip, LinksStayOnTheirJointsAndApart) {
   EXPECT_GT(session.least_clearance(), 0.0);
 }
 
+/// Jaws that open or shut by 34 mm in each cycle, while the wrist spins by 0.05 rad.
+TEST(Grip, JawsStayOnTheirRailsWhileTheWristSpins) {
+  ContactLoop loop(grip_scene(jaws()));
+  const auto half_way = [](const HapticPiece& piece) {
+    const Vector3d half = 0.5 * piece.rotation_vector;
+    const Vector3d axis = half.norm() > 0.0 ? Vector3d(half.normalized()) : Vector3d::UnitZ();
+    return Pose{piece.X_WB.position + 0.5 * piece.translation,
+                Eigen::Quaterniond(Eigen::AngleAxisd(half.norm(), axis)) * piece.X_WB.rotation};
+  };
+  for (int k = 1; k <= 40; ++k) {
+    const double shut = k % 2 == 0 ? 0.0 : kJawWay;
+    const Pose target{Vector3d::Zero(),
+                      Eigen::Quaterniond(Eigen::AngleAxisd(0.05 * k, Vector3d::UnitZ()))};
+    const HapticCycle& cycle =
+        loop.advance({.poses = std::array{target}, .joints = std::array{shut, shut}}, 1e-3, 0);
+    const std::vector<HapticPiece>& palm = cycle.members[0].pieces;
+    const std::vector<HapticPiece>& jaw = cycle.members[1].pieces;
+    ASSERT_EQ(palm.size(), jaw.size());
+    for (std::size_t p = 0; p < palm.size(); ++p) {
+      const Pose X_WP = half_way(palm[p]);
+      const Vector3d p_PL = X_WP.rotation.conjugate() * (half_way(jaw[p]).position - X_WP.position);
+      EXPECT_LT(std::hypot(p_PL.y(), p_PL.z() + 0.012), kContactDistance) << k;
+    }
+  }
+}
+
 TEST(Grip, FollowsAButtonWhereTheDeviceHasNoGrips) {
   DeviceMapping mapping = one_grip();
   mapping.grips[0].button = 2;

@@ -102,8 +102,8 @@ TEST(HapticsFile, SaysWhatIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"[]",
        ": expected an object with \"tools\", \"contact_distance\", \"friction\", \"force_rate\", "
-       "\"contact_rate\", \"max_force\", \"max_torque\", \"force_slew\", \"torque_slew\", got an "
-       "array of 0"},
+       "\"contact_rate\", \"max_force\", \"max_torque\", \"force_slew\", \"torque_slew\", "
+       "\"max_grip_effort\", got an array of 0"},
       {"{}", ": expected a key \"tools\", got none"},
       {R"({"tools": "peg"})", ".tools: expected an array of tools, got \"peg\""},
       {R"({"tools": []})", ".tools: expected 1 or 2 tools, got 0"},

@@ -71,14 +71,25 @@ double ToolLinks::own_turn(std::size_t link, std::span<const double> of_joints) 
                         : std::abs(node.turn * of_joints[static_cast<std::size_t>(node.joint)]);
 }
 
-std::vector<double> ToolLinks::turns(std::span<const double> of_joints) const {
-  std::vector<double> turns(nodes_.size());
+/// Sums for each link what its joint and those on which it hangs add.
+std::vector<double> ToolLinks::sums(std::span<const double> of_joints, double Node::*rate) const {
+  std::vector<double> sums(nodes_.size());
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    const int parent = nodes_[k].parent;
-    turns[k] =
-        own_turn(k, of_joints) + (parent < 0 ? 0.0 : turns[static_cast<std::size_t>(parent)]);
+    const Node& node = nodes_[k];
+    sums[k] = node.parent < 0 ? 0.0 : sums[static_cast<std::size_t>(node.parent)];
+    if (node.joint >= 0) {
+      sums[k] += std::abs(node.*rate * of_joints[static_cast<std::size_t>(node.joint)]);
+    }
   }
-  return turns;
+  return sums;
+}
+
+std::vector<double> ToolLinks::turns(std::span<const double> of_joints) const {
+  return sums(of_joints, &Node::turn);
+}
+
+std::vector<double> ToolLinks::slides(std::span<const double> of_joints) const {
+  return sums(of_joints, &Node::slide);
 }
 
 }  // namespace firstcontact::detail

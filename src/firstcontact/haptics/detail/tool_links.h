@@ -59,11 +59,16 @@ class ToolLinks {
   /// [rad]  How far each link turns at most against its tool where joints go by so much.
   [[nodiscard]] std::vector<double> turns(std::span<const double> of_joints) const;
 
+  /// [m]  How far each link slides at most against its tool where joints go by so much.
+  [[nodiscard]] std::vector<double> slides(std::span<const double> of_joints) const;
+
   /// [rad]  The turn of a link by its own joint.
   [[nodiscard]] double own_turn(std::size_t link, std::span<const double> of_joints) const;
 
  private:
   [[nodiscard]] int rigid_root(int link) const;
+  [[nodiscard]] std::vector<double> sums(std::span<const double> of_joints,
+                                         double Node::*rate) const;
 
   std::size_t tools_ = 0;
   std::vector<Node> nodes_;

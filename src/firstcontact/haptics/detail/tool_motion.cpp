@@ -63,28 +63,28 @@ void ContactLoop::Implementation::begin_links() {
   measure_joints();
 }
 
-/// Measures how far points of tools are from the axes that turn them, where they begin.
+/// Bounds how far points of tools are from the axes that turn them, in any posture: by the lengths
+/// of the links between. Slides count as they begin.
 void ContactLoop::Implementation::measure_joints() {
   reaches_.assign(joints_.size(), 0.0);
   levers_.assign(links_.nodes().size(), 0.0);
   for (std::size_t m = first_link(); m < members_.size(); ++m) {
-    const Vector3d& centre = members_[m].shape.bounds().centre;
-    const Vector3d point = poses_[m].position + poses_[m].rotation * centre;
-    const auto tool = static_cast<std::size_t>(tool_of(m));
-    const Vector3d p_WC =
-        poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
-    link_reach_ = std::max(link_reach_, (point - p_WC).norm() + members_[m].reach);
+    double lever = members_[m].shape.bounds().centre.norm() + members_[m].reach;
     for (int link = link_of(m); link >= 0;) {
       const auto number = static_cast<std::size_t>(link);
       const detail::ToolLinks::Node& node = links_.nodes()[number];
       if (node.joint >= 0) {
-        const double lever = (point - frames_.axes[number].point).norm() + members_[m].reach;
-        double& reach = reaches_[static_cast<std::size_t>(node.joint)];
-        reach = std::max(reach, std::abs(node.turn) * lever + std::abs(node.slide));
+        const auto joint = static_cast<std::size_t>(node.joint);
+        lever += std::abs(node.slide * joints_[joint]);
+        reaches_[joint] =
+            std::max(reaches_[joint], std::abs(node.turn) * lever + std::abs(node.slide));
         levers_[number] = std::max(levers_[number], lever);
       }
+      lever += node.X_PJ.position.norm();
       link = node.parent;
     }
+    const auto tool = static_cast<std::size_t>(tool_of(m));
+    link_reach_ = std::max(link_reach_, lever + scene_.tools[tool].p_BC.norm());
   }
   for (std::size_t link = 0; link < levers_.size(); ++link) {
     const int parent = links_.nodes()[link].parent;
@@ -112,17 +112,20 @@ void ContactLoop::Implementation::set_link_frames() {
 ///
 /// A link's origin goes on a line and the link turns about it, each at a constant rate. So a joint
 /// alone bends nothing. Joints and a tool that turn together do, by an eighth of the product of
-/// their angles times a lever.
+/// their angles times a lever. A slide that turns bends by a quarter of the product of both.
 std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacements& ways) const {
   const std::vector<double> turns = links_.turns(ways.joints);
+  const std::vector<double> slides = links_.slides(ways.joints);
   double bend = 0.0;
   for (std::size_t link = 0; link < turns.size(); ++link) {
     const double of_tool = ways[links_.nodes()[link].tool].rotation_vector.norm();
     const double own = links_.own_turn(link, ways.joints);
     const double before = turns[link] - own;
-    bend = std::max(bend, 0.125 * (link_reach_ * of_tool * of_tool +
-                                   levers_[link] * ((2.0 * of_tool + before) * before +
-                                                    2.0 * (of_tool + before) * own)));
+    const double by_turns =
+        0.125 *
+        (link_reach_ * of_tool * of_tool +
+         levers_[link] * ((2.0 * of_tool + before) * before + 2.0 * (of_tool + before) * own));
+    bend = std::max(bend, by_turns + 0.25 * (of_tool + turns[link]) * slides[link]);
   }
   const double pieces = std::ceil(std::sqrt(bend / (detail::kBendOfLinks * distance_)));
   return static_cast<std::size_t>(std::clamp(pieces, 1.0, 1e6));
