@@ -31,7 +31,10 @@ constexpr std::uint64_t kLessEffort = 20;
 
 /// [-]  Trees grow to less than a blocked edge's fraction; slides begin where it ends.
 constexpr double kFractionTolerance = 1e-3;
-constexpr int kWiderMargins = 12;  // Each twice as wide as the one before.
+constexpr int kWiderMargins = 8;  // Each wider than the one before...
+constexpr double kWider = 4.0;    // [-]  ...by this factor, the last one by half of it.
+/// [-]  The least distance is looked for along edges that are proven by such a part of the effort.
+constexpr std::uint64_t kShareOfEasy = 100;
 
 void require_plan(bool condition, const std::string& what) {
   if (!condition) {
@@ -265,46 +268,60 @@ class PlanSearch {
             .held = contacts_.held(place)};
   }
 
-  /// Proves an edge, with a clearance that is near the least distance where the effort is enough
-  /// for that.
+  /// Checkers of edges that have not seen the path.
+  struct Proof {
+    Proof(const PlanScene& scene, EdgeCheckOptions options) : fresh(scene, options) {
+      options.effort = std::max<std::uint64_t>(1, options.effort / kShareOfEasy);
+      brief.emplace(scene, options);
+    }
+
+    EdgeChecker fresh;
+    std::optional<EdgeChecker> brief = {};
+  };
+
+  /// Proves an edge, with a clearance that is near the least distance where that is easy.
   ///
   /// Where surfaces are close to each other over much of themselves, as threads are, the least
   /// distance costs far more than the proof. A bound by wider and wider margins does without it.
-  [[nodiscard]] EdgeAnswer proof_of(const EdgeChecker& fresh, const Configuration& from,
+  [[nodiscard]] EdgeAnswer proof_of(const Proof& proof, const Configuration& from,
                                     const Configuration& to) const {
-    const EdgeAnswer close = fresh.check_closely(from, to);
-    if (close.verdict != EdgeVerdict::undecided) {
-      return close;
+    const EdgeChecker& fresh = proof.fresh;
+    if (proof.brief->check(from, to).verdict != EdgeVerdict::undecided) {
+      const EdgeAnswer close = fresh.check_closely(from, to);
+      if (close.verdict != EdgeVerdict::undecided) {
+        return close;
+      }
     }
     EdgeAnswer best = fresh.check(from, to);
+    EdgeCheckOptions asked = fresh.options();
     double extra = options_.extra_clearance + options_.tolerance;
-    for (int k = 0; k < kWiderMargins && best.verdict == EdgeVerdict::free; ++k) {
-      extra *= 2.0;
-      EdgeCheckOptions asked = fresh.options();
-      asked.extra_clearance = extra;
-      const EdgeChecker wider(scene_, asked);
-      const EdgeAnswer more = wider.check(from, to);
-      if (more.verdict != EdgeVerdict::free) {
-        break;
+    double wider = kWider;
+    for (int k = 0; k < kWiderMargins && best.verdict == EdgeVerdict::free && wider > 1.0; ++k) {
+      asked.extra_clearance = wider * extra;
+      const EdgeAnswer more = EdgeChecker(scene_, asked).check(from, to);
+      const bool is_free = more.verdict == EdgeVerdict::free;
+      if (is_free) {
+        extra = asked.extra_clearance;
+        best.clearance = more.clearance;
       }
-      best.clearance = more.clearance;
+      wider = is_free && wider == kWider ? kWider : wider / 2.0;
     }
     return best;
   }
 
   /// Proves the edges anew, by a checker that has not seen them.
   void prove(FoundPath found, const std::vector<Configuration>& goals, PlanResult& result) const {
-    const EdgeChecker fresh(scene_, options_of_proof(EdgePlace::inner));
-    std::optional<EdgeChecker> at_start;
-    std::optional<EdgeChecker> at_goal;
+    const Proof inner(scene_, options_of_proof(EdgePlace::inner));
+    std::optional<Proof> at_start;
+    std::optional<Proof> at_goal;
     if (at_start_) {
       at_start.emplace(scene_, options_of_proof(EdgePlace::at_start));
     }
     if (at_goal_) {
       at_goal.emplace(scene_, options_of_proof(EdgePlace::at_goal));
     }
-    const auto checker_of = [&](EdgePlace place) -> const EdgeChecker& {
-      return place == EdgePlace::inner      ? fresh
+    const auto proof_at = [&](EdgePlace place) -> const Proof& {
+      return place == EdgePlace::inner      ? inner
              : place == EdgePlace::at_start ? *at_start
                                             : *at_goal;
     };
@@ -313,7 +330,7 @@ class PlanSearch {
     std::vector<EdgeAnswer> answers(edges);
     parallel_for(options_.threads, edges, [&](std::size_t k) {
       answers[k] =
-          proof_of(checker_of(place_of(k, found)), path[k], path[std::min(k + 1, path.size() - 1)]);
+          proof_of(proof_at(place_of(k, found)), path[k], path[std::min(k + 1, path.size() - 1)]);
     });
     for (const EdgeAnswer& answer : answers) {
       if (answer.verdict != EdgeVerdict::free) {
