@@ -345,6 +345,48 @@ TEST(Grip, JawsStayOnTheirRailsWhileTheWristSpins) {
   }
 }
 
+// By more than half a turn the shortest way would lead round behind the plate, beyond the limits.
+TEST(Grip, AFingerThatJumpsByMoreThanHalfATurnStaysWithinItsLimits) {
+  for (const bool has_plate : {true, false}) {
+    HapticTool tool = gripper();
+    tool.links.pop_back();
+    tool.joints.pop_back();
+    tool.joints[0].lower = -1.7;
+    tool.joints[0].upper = 1.7;
+    tool.joints[0].start = -1.7;
+    tool.joints[0].stiffness = 0.05;  // The wrist gives way by 2 mm.
+    HapticScene scene = grip_scene(tool);
+    if (has_plate) {
+      scene.bodies.push_back(
+          body_at("plate", make_box({1e-4, 0.1, 0.03}), Vector3d(0.04, 0.0, -0.06), 0.0));
+    }
+    DeviceMapping mapping;
+    mapping.grips.push_back({.joints = {{.joint = 0, .open = -1.7, .closed = 1.7}}});
+    GripSession session(scene, mapping);
+    session.step(Vector3d::Zero(), 0.0, 10);
+    const std::size_t finger = has_plate ? 2 : 1;
+    for (int k = 0; k < 200; ++k) {
+      session.step(Vector3d::Zero(), 1.0, 4);
+      const Eigen::AngleAxisd turn(session.pose(0).rotation.normalized().conjugate() *
+                                   session.pose(finger).rotation.normalized());
+      const double angle = turn.angle() * turn.axis().y();
+      ASSERT_NEAR(angle, session.joint(0), 1e-3) << k;
+    }
+    EXPECT_GT(session.least_clearance(), 0.0);
+    if (has_plate) {
+      EXPECT_LT(session.joint(0), 0.1);
+    } else {
+      EXPECT_NEAR(session.joint(0), 1.7, 1e-6);
+    }
+  }
+}
+
+TEST(Grip, ValuesBeyondTheirRangeLeadNoFarther) {
+  GripSession session(grip_scene(gripper()), one_grip(0.3));
+  session.step(Vector3d::Zero(), 3.0, 2000);
+  EXPECT_NEAR(session.joint(0), 0.3, 1e-6);
+}
+
 TEST(Grip, FollowsAButtonWhereTheDeviceHasNoGrips) {
   DeviceMapping mapping = one_grip();
   mapping.grips[0].button = 2;

@@ -235,6 +235,7 @@ class ForceLoop::Implementation {
   [[nodiscard]] detail::ConeProjectionResult project(const HapticContactSet& set,
                                                      std::int64_t now_ns) noexcept {
     if (cone_.size() == 0) {
+      solved_.reset();
       return {};
     }
     const double seconds = kNanosecond * static_cast<double>(std::clamp<std::int64_t>(
@@ -266,7 +267,38 @@ class ForceLoop::Implementation {
       wanted[links_->coordinate_of(joint)] =
           frames_.joint_weights[joint] * (tick_.joint_targets[joint] - set.joints[joint]);
     }
-    return cone_.project(wanted, options_.tolerance, options_.pivots);
+    detail::ConeProjectionResult found = cone_.project(wanted, options_.tolerance, options_.pivots);
+    if (links_->joints().empty()) {
+      return found;
+    }
+    if (found.is_solved) {
+      solved_ = found.force;
+    } else {
+      found.force = solved_.value_or(found.force);
+      cut_to_springs(set, wanted, seconds, found.force);
+    }
+    return found;
+  }
+
+  /// Cuts a force to what springs give that are stretched to the targets, and as far as surfaces
+  /// move. Contacts that contradict each other would have any force.
+  void cut_to_springs(const HapticContactSet& set, const Coordinates& wanted, double seconds,
+                      Coordinates& force) const noexcept {
+    double squares_of_way = 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < links_->coordinates(); ++k) {
+      squares_of_way += wanted[k] * wanted[k];
+      squares += force[k] * force[k];
+    }
+    double surface = 0.0;
+    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
+      surface = std::max(surface, seconds * set.contacts[c].surface_velocity.norm());
+    }
+    const double most = std::sqrt(squares_of_way) + surface;
+    const double length = std::sqrt(squares);
+    for (std::size_t k = 0; k < links_->coordinates() && length > most; ++k) {
+      force[k] *= most / length;
+    }
   }
 
   /// [-]  The part of the spring's force that acts.
@@ -375,6 +407,7 @@ class ForceLoop::Implementation {
   detail::ConeProjection cone_;
   detail::ToolFrames frames_;
   std::vector<detail::FeltTool> tools_;
+  std::optional<Coordinates> solved_ = {};  // [m]  Of tools with joints: the last since they touch.
   std::uint64_t taken_ = 0;
   bool has_ticked_ = false;
   ForceTick tick_;

@@ -42,7 +42,9 @@ inline constexpr double kSlackOfFloor = 1e-6;
 inline constexpr double kSinkOfTurn = 1.2;
 /// [-]  Links of a tool move in pieces in which they stay so near to where joints have them...
 inline constexpr double kBendOfLinks = 0.25;
-/// [pieces]  ...of which a round has at most so many.
+/// [rad]  ...and turn by no more, far less than half a turn.
+inline constexpr double kMostTurnOfPiece = 1.5;
+/// [pieces]  A round has at most so many.
 inline constexpr double kMostPiecesOfLinks = 12.0;
 /// [-]  A round ends before a course has bent away so far from a straight line.
 inline constexpr double kBendOfCourse = 0.5;

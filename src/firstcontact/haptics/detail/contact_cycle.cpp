@@ -259,6 +259,10 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
       part *= detail::kShareWithoutRoom;
       continue;
     }
+    if (touches_.empty() && !is_last && plan.part < 1.0) {  // The rest has time of its own.
+      slot *= plan.part;
+      set_courses(slot);
+    }
     const double made = execute(plan, slot, dt, deadline);
     // Among bodies that move, a plan to the end of the cycle is the last one.
     const bool is_last_plan = are_courses_moving_ && slot == left;

@@ -125,6 +125,7 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
     found.displacements = found.displacements.part(part);
   }
   found.is_shortened = true;
+  found.part = part;
   return found;
 }
 

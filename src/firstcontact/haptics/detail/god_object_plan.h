@@ -55,7 +55,8 @@ struct GodObjectPlan {
   ToolDisplacements displacements = {};
   double residual = 0.0;      ///< [m]
   bool is_pressed = false;    ///< Contacts change it.
-  bool is_shortened = false;  ///< It leads only a part of the way.
+  bool is_shortened = false;  ///< It leads only a part of the way...
+  double part = 1.0;          ///< [-]  ...this one, where that was chosen.
 };
 
 /// Projects the displacements towards the targets on the contacts, with friction.

@@ -54,7 +54,7 @@ void GripFollower::follow(const DeviceState& device, bool is_engaged, const Hapt
   for (std::size_t k = 0; k < grips_.size(); ++k) {
     const GripMapping& grip = grips_[k];
     if (grip.button < 0) {
-      values_[k] = device.grips[k];
+      values_[k] = std::clamp(device.grips[k], 0.0, 1.0);
     } else {
       const bool closes = (device.buttons >> static_cast<unsigned>(grip.button) & 1U) != 0;
       const double way = seconds / grip.seconds;

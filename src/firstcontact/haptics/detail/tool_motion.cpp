@@ -63,8 +63,21 @@ void ContactLoop::Implementation::begin_links() {
   measure_joints();
 }
 
+namespace {
+
+/// [m]  How far a joint gets from 0, or as it begins where it has no limits.
+double farthest(const HapticJoint& joint) {
+  double far = std::abs(joint.start);
+  for (const double limit : {joint.lower, joint.upper}) {
+    far = std::isfinite(limit) ? std::max(far, std::abs(limit)) : far;
+  }
+  return far;
+}
+
+}  // namespace
+
 /// Bounds how far points of tools are from the axes that turn them, in any posture: by the lengths
-/// of the links between. Slides count as they begin.
+/// of the links between, with slides as long as their limits let them be.
 void ContactLoop::Implementation::measure_joints() {
   reaches_.assign(joints_.size(), 0.0);
   levers_.assign(links_.nodes().size(), 0.0);
@@ -75,7 +88,7 @@ void ContactLoop::Implementation::measure_joints() {
       const detail::ToolLinks::Node& node = links_.nodes()[number];
       if (node.joint >= 0) {
         const auto joint = static_cast<std::size_t>(node.joint);
-        lever += std::abs(node.slide * joints_[joint]);
+        lever += std::abs(node.slide) * farthest(links_.joints()[joint]);
         reaches_[joint] =
             std::max(reaches_[joint], std::abs(node.turn) * lever + std::abs(node.slide));
         levers_[number] = std::max(levers_[number], lever);
@@ -112,11 +125,13 @@ void ContactLoop::Implementation::set_link_frames() {
 ///
 /// A link's origin goes on a line and the link turns about it, each at a constant rate. So a joint
 /// alone bends nothing. Joints and a tool that turn together do, by an eighth of the product of
-/// their angles times a lever. A slide that turns bends by a quarter of the product of both.
+/// their angles times a lever. A slide that turns bends by a quarter of the product of both. In no
+/// piece does a link turn by half a turn: the shortest turn to its end would be another one.
 std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacements& ways) const {
   const std::vector<double> turns = links_.turns(ways.joints);
   const std::vector<double> slides = links_.slides(ways.joints);
   double bend = 0.0;
+  double most = 0.0;  // [rad]
   for (std::size_t link = 0; link < turns.size(); ++link) {
     const double of_tool = ways[links_.nodes()[link].tool].rotation_vector.norm();
     const double own = links_.own_turn(link, ways.joints);
@@ -126,8 +141,10 @@ std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacemen
         (link_reach_ * of_tool * of_tool +
          levers_[link] * ((2.0 * of_tool + before) * before + 2.0 * (of_tool + before) * own));
     bend = std::max(bend, by_turns + 0.25 * (of_tool + turns[link]) * slides[link]);
+    most = std::max(most, of_tool + turns[link]);
   }
-  const double pieces = std::ceil(std::sqrt(bend / (detail::kBendOfLinks * distance_)));
+  const double pieces = std::ceil(std::max(std::sqrt(bend / (detail::kBendOfLinks * distance_)),
+                                           most / detail::kMostTurnOfPiece));
   return static_cast<std::size_t>(std::clamp(pieces, 1.0, 1e6));
 }
 
