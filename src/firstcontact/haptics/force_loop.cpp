@@ -273,7 +273,7 @@ class ForceLoop::Implementation {
     }
     if (found.is_solved) {
       solved_ = found.force;
-    } else {
+    } else if (found.pressing > 0) {
       found.force = solved_.value_or(found.force);
       cut_to_springs(set, wanted, seconds, found.force);
     }

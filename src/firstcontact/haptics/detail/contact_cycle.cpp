@@ -65,12 +65,20 @@ void ContactLoop::Implementation::append_piece(std::size_t member, const Displac
 /// @returns  [-]  the part of it that was made
 double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, double slot,
                                             double dt, const std::optional<Deadline>& deadline) {
-  const std::size_t pieces = pieces_of(plan.displacements);
+  detail::ToolDisplacements whole = plan.displacements;
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    // Limits are met to the residual of the plan.
+    const HapticJoint& limits = links_.joints()[joint];
+    whole.joints[joint] =
+        std::clamp(joints_[joint] + whole.joints[joint], limits.lower, limits.upper) -
+        joints_[joint];
+  }
+  const std::size_t pieces = pieces_of(whole);
   if (pieces == 1) {
-    return execute_piece(plan.displacements, slot, dt, deadline);
+    return execute_piece(whole, slot, dt, deadline);
   }
   const double part = 1.0 / static_cast<double>(pieces);
-  const detail::ToolDisplacements ways = plan.displacements.part(part);
+  const detail::ToolDisplacements ways = whole.part(part);
   const double end = slot == dt - now_ ? dt : now_ + slot;
   for (std::size_t m = tools(); m < first_link(); ++m) {
     courses_[m].translation *= part;
