@@ -381,6 +381,45 @@ TEST(Grip, AFingerThatJumpsByMoreThanHalfATurnStaysWithinItsLimits) {
   }
 }
 
+// A surface closes on a finger, and then another one from nearly the opposite side. Without a cut
+// the effort was 1e15 N.
+TEST(Grip, EffortsOfContactsThatContradictEachOtherStayWithinTheSprings) {
+  ContactLoop contacts(grip_scene(jaws(0.5)));
+  ForceLoop forces(contacts.scene(), {one_grip(kJawWay)});
+  (void)contacts.advance({.poses = std::array{Pose{}}, .joints = std::array{0.0, 0.0}}, 1e-3, 0);
+  HapticContactSet set = contacts.contact_set();
+  const double speed = 1.0;  // [m/s]
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    HapticContact& contact = set.contacts[k];
+    const double side = k == 0 ? 1.0 : -1.0;
+    contact.link = 0;
+    contact.normal = Vector3d(side, 1e-12, 7e-13 * side).normalized();
+    contact.point = {0.04 - 0.005 * side, 0.0, -0.06};
+    contact.gap = kContactDistance;
+    contact.friction = 0.5;
+    contact.surface_velocity = {side * speed, 0.0, 0.0};
+  }
+  DeviceState device;
+  device.status = DeviceStatus::live;
+  device.grips[0] = 1.0;
+  bool is_unsolved = false;
+  std::int64_t now_ns = 0;
+  for (int k = 0; k < 400; ++k) {
+    set.count = k < 200 ? 1 : 2;
+    set.sequence += 1;
+    set.stamp_ns = now_ns;
+    now_ns += 250'000;
+    const ForceTick& tick = forces.tick(now_ns, set, std::array{device});
+    const auto unsolved = static_cast<std::uint32_t>(ForceFault::unsolved);
+    is_unsolved = is_unsolved || (tick.tools[0].faults & unsolved) != 0;
+    // Both springs are stretched by the way of the jaws, and the surface goes on for a tick.
+    const double most = kJawStiffness * (std::sqrt(2.0) * kJawWay + speed * 250e-6);
+    ASSERT_LE(std::abs(tick.joint_efforts[0]), 1.001 * most) << k;
+    ASSERT_LE(std::abs(tick.joint_efforts[1]), 1.001 * most) << k;
+  }
+  EXPECT_TRUE(is_unsolved);
+}
+
 TEST(Grip, ValuesBeyondTheirRangeLeadNoFarther) {
   GripSession session(grip_scene(gripper()), one_grip(0.3));
   session.step(Vector3d::Zero(), 3.0, 2000);

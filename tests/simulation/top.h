@@ -37,8 +37,8 @@ inline std::string top_body(const Top& top, double contact_distance) {
 /// The axis of a symmetric top whose tip slides without friction: its centre of mass goes up and
 /// down alone. Lagrange's equations for the angles of Euler, by the rule of Runge and Kutta.
 ///
-/// @param stiffness  [N/m]  of a spring without length that pulls the centre of mass straight up,
-/// @param anchor     [m]    to this height
+/// @param stiffness  [N/m]  of a spring without length, from the centre of mass straight up.
+/// @param anchor     [m]    Height of its upper end.
 inline Eigen::Vector3d right_axis(const Top& top, double time, double stiffness = 0.0,
                                   double anchor = 0.0) {
   using Eigen::Vector3d;
@@ -50,10 +50,10 @@ inline Eigen::Vector3d right_axis(const Top& top, double time, double stiffness 
     const double c = std::cos(at[0]);
     const double w = at[1];
     const double round = (about_z - about_axis * c) / (across * s * s);
-    const double push =
-        (across * round * round * c - about_axis * round + kMassOfTop * 9.81 * kArm -
-         stiffness * kArm * (anchor - 0.02 - kArm * c) - kMassOfTop * kArm * kArm * w * w * c) *
-        s;
+    const double spins = across * round * round * c - about_axis * round;
+    const double falls = kMassOfTop * (9.81 * kArm - kArm * kArm * w * w * c);
+    const double pulled = stiffness * kArm * (anchor - 0.02 - kArm * c);
+    const double push = (spins + falls - pulled) * s;
     return {w, push / (across + kMassOfTop * kArm * kArm * s * s), round};
   };
   constexpr int kParts = 20000;

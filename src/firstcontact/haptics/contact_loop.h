@@ -90,7 +90,7 @@ struct ContactLoopOptions {
 /// The coordinates of a tool with joints are its pose and those of its joints, each with its own
 /// spring. Its links are members of their own. Each moves at constant rates, so a joint opens while
 /// it turns, and is closed at the end of the piece. A piece is so short that it opens by less than
-/// a contact distance. What is proven, and recorded, is how the links move.
+/// a contact distance. Proofs and records are of the links as they move.
 ///
 /// Source: M. Ortega, S. Redon, S. Coquillart, "A six degree-of-freedom god-object method for
 /// haptic display of rigid bodies with surface properties", IEEE Transactions on Visualization and
@@ -118,7 +118,7 @@ class FIRSTCONTACT_API ContactLoop {
 
   /// Runs a cycle. The result holds until the next one.
   ///
-  /// @param targets   of each tool; joints go no farther than their limits
+  /// @param targets   of each tool; joints stop at their limits
   /// @param dt        [s]  > 0; the surroundings move for so long
   /// @param stamp_ns  [ns]  goes into the contact set of this cycle
   /// @param deadline  no round begins after it; a search that runs then stops with what is proven

@@ -116,8 +116,8 @@ class ContactLoop::Implementation {
   std::vector<double> levers_;   // [m]  Of each link: the longest of the joints on which it hangs.
   double link_reach_ = 0.0;      // [m]  From any tool's centre to its farthest point.
   std::vector<Pose> X_WL_;       // Where joints have the links.
-  std::vector<Displacement> courses_;  // Of members, over the next plan. Of links: from where they
-                                       // are to where their joints have them.
+  std::vector<Displacement> courses_;  // Of members, over the next plan. A link goes to where its
+                                       // joints have it.
   std::vector<Displacement> ways_;     // Of members, over the piece of a plan.
   std::vector<Motion> motions_;
   detail::ContactFinder finder_{0.0};

@@ -15,8 +15,10 @@
 
 namespace firstcontact::detail {
 
-/// @throws std::invalid_argument  a joint that the tool lacks, one of two grips, numbers that are
-///         not finite, a button or a time out of range, or too many grips
+/// Checks the grips of a tool.
+///
+/// @throws std::invalid_argument for too many grips, a joint that the tool lacks or that two grips
+///         have, or a number out of its range
 void check_grips(std::span<const GripMapping> grips, const HapticTool& tool);
 
 /// Follows the grips of one device. After the construction nothing is allocated.
@@ -28,9 +30,9 @@ class GripFollower {
   /// While the device is not engaged, joints are wanted where the god-object has them, and grips by
   /// buttons stay.
   ///
-  /// @param seconds  since the last tick
-  /// @param values   takes the values of the grips
-  /// @param targets  takes those of the tool's joints, within their limits
+  /// @param seconds  since the last tick.
+  /// @param values   takes the values of the grips.
+  /// @param targets  takes where the tool's joints are wanted [rad or m], within their limits.
   void follow(const DeviceState& device, bool is_engaged, const HapticContactSet& set,
               double seconds, std::array<double, kMostGrips>& values,
               std::array<double, kMostHapticJoints>& targets) noexcept;

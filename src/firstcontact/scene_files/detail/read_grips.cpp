@@ -15,7 +15,6 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kMostGripsOfTool = 16;
-constexpr std::size_t kButtonsOfDevice = 32;
 
 class GripsReader {
  public:

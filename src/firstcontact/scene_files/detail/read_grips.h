@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <firstcontact/scene/haptic_question.h>
@@ -13,6 +14,9 @@ struct SceneRobot;
 }  // namespace firstcontact
 
 namespace firstcontact::detail {
+
+/// [buttons]  A device has at most so many.
+inline constexpr std::size_t kButtonsOfDevice = 32;
 
 /// @param robot  that has the joints
 /// @throws ParseError  a joint that the robot lacks, that is fixed, has no single coordinate,

@@ -15,7 +15,6 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kMostHapticTools = 2;
-constexpr std::size_t kButtons = 32;
 
 class HapticsReader {
  public:
@@ -162,7 +161,7 @@ class HapticsReader {
     if (value == nullptr) {
       return {};
     }
-    return static_cast<int>(read_.index(*value, kButtons, "a button"));
+    return static_cast<int>(read_.index(*value, kButtonsOfDevice, "a button"));
   }
 
   void take_positive(const JsonObject& object, std::string_view key, double& number) const {
