@@ -7,7 +7,6 @@
 #include <fstream>
 #include <functional>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 
 #include <firstcontact/record/write_run.h>
 
+#include "simulation/double_pendulum.h"
 #include "simulation/simulated_run.h"
 #include "support/rounds.h"
 
@@ -27,6 +27,20 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using test::connected;
+using test::double_pendulum;
+using test::kC1;
+using test::kC2;
+using test::kI2;
+using test::kLength;
+using test::kM1;
+using test::kM2;
+using test::kPull;
+using test::massive;
+using test::pendulum_bias;
+using test::pendulum_mass;
+using test::Swing;
+using test::text_of;
 
 /// A folder with the URDF file of a test.
 class RobotLaws : public testing::Test {
@@ -54,75 +68,9 @@ class RobotLaws : public testing::Test {
   std::filesystem::path folder_;
 };
 
-std::string text_of(double number) {
-  std::ostringstream out;
-  out.precision(17);
-  out << number;
-  return out.str();
-}
-
-/// A link with moments of inertia (x, y, z) about its centre, and perhaps a box there.
-std::string massive(const std::string& name, double mass, const std::string& centre,
-                    const std::array<double, 3>& moments, const std::string& box_size = "") {
-  const std::string origin = R"(<origin xyz=")" + centre + R"("/>)";
-  return "<link name=\"" + name + "\"><inertial>" + origin + "<mass value=\"" + text_of(mass) +
-         "\"/><inertia ixx=\"" + text_of(moments[0]) + "\" iyy=\"" + text_of(moments[1]) +
-         "\" izz=\"" + text_of(moments[2]) + "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>" +
-         (box_size.empty() ? ""
-                           : "<collision>" + origin + "<geometry><box size=\"" + box_size +
-                                 "\"/></geometry></collision>") +
-         "</link>";
-}
-
-std::string connected(const std::string& name, const std::string& type, const std::string& parent,
-                      const std::string& child, const std::string& axis, const std::string& origin,
-                      const std::string& more = "") {
-  return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
-         "\"/><child link=\"" + child + "\"/><axis xyz=\"" + axis + "\"/><origin xyz=\"" + origin +
-         "\"/>" + more + "</joint>";
-}
-
 // --- Orders: a double pendulum against Runge and Kutta's rule on its closed equations ------------
 
-constexpr double kPull = 9.81;   // [m/s^2]
-constexpr double kLength = 0.5;  // [m]  From hinge to hinge.
-constexpr double kM1 = 1.0;      // [kg]
-constexpr double kM2 = 0.7;
-constexpr double kC1 = 0.25;  // [m]  From the hinge to the centre.
-constexpr double kC2 = 0.2;
-constexpr double kI1 = 0.02;  // [kg m^2]
-constexpr double kI2 = 0.01;
-
-std::string double_pendulum(const std::string& first, const std::string& second) {
-  return "<link name=\"base\"/>" + massive("a", kM1, "0 0 -0.25", {kI1, kI1, kI1}) +
-         massive("b", kM2, "0 0 -0.2", {kI2, kI2, kI2}) +
-         connected("j1", "continuous", "base", "a", "0 1 0", "0 0 0", first) +
-         connected("j2", "continuous", "a", "b", "0 1 0", "0 0 -0.5", second);
-}
-
-struct Swing {
-  Vector2d q = Vector2d::Zero();
-  Vector2d v = Vector2d::Zero();
-};
-
 using Torques = std::function<Vector2d(double, const Swing&)>;
-
-Matrix2d pendulum_mass(double q2) {
-  const double c = kM2 * kLength * kC2 * std::cos(q2);
-  const double m22 = kI2 + kM2 * kC2 * kC2;
-  Matrix2d M;
-  M << kI1 + kM1 * kC1 * kC1 + kM2 * kLength * kLength + m22 + 2.0 * c, m22 + c, m22 + c, m22;
-  return M;
-}
-
-/// The forces that keep the rates of a double pendulum.
-Vector2d pendulum_bias(const Swing& s) {
-  const double k = kM2 * kLength * kC2 * std::sin(s.q[1]);
-  const double second = kM2 * kPull * kC2 * std::sin(s.q[0] + s.q[1]);
-  return {-k * s.v[1] * (2.0 * s.v[0] + s.v[1]) +
-              (kM1 * kC1 + kM2 * kLength) * kPull * std::sin(s.q[0]) + second,
-          k * s.v[0] * s.v[0] + second};
-}
 
 /// By Runge and Kutta's rule in steps of 0.1 ms. Where the second joint is led, `led` gives its
 /// acceleration.

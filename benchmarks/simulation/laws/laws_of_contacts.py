@@ -2,6 +2,7 @@
 
 import math
 
+from laws_of_free_motion import pendulum_urdf, two_links, two_links_mass
 from law_scenes import (G, NEAR, NotForPeer, around_globe, ball, body, box, energy, is_ours, leaning, runge_kutta,
                         scene, simulate, tube, turned)
 
@@ -148,18 +149,28 @@ TRAY = """<robot name="lift"><link name="base"/><link name="tray">
   <limit lower="-1" upper="1" effort="0" velocity="9"/></joint></robot>"""
 
 
-def top_on_its_tip(tool, step, is_on_robot=False):
+TOP = """<robot name="top"><link name="top">
+  <inertial><origin xyz="0 0 0.1"/><mass value="0.3"/>
+  <inertia ixx="5e-4" iyy="5e-4" izz="6e-4" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><sphere radius="0.02"/></geometry></collision></link></robot>"""
+
+
+def top_on_its_tip(tool, step, robot=None):
     """How far the axis of a top gets from the right one within 1 s, which spins at 60 rad/s without friction. On a
-    floor, or on a tray that the motor of a robot holds."""
+    floor, on a "tray" that the motor of a robot holds, or as the "link" of a robot that nothing holds."""
     mass, arm, across, along, spin, lean = 0.3, 0.1, 5e-4, 6e-4, 60.0, 0.3
+    spins = [spin * math.sin(lean), 0, spin * math.cos(lean)]
     top = body("top", ball(0.02), (0, 0, 0.02001), quaternion_wxyz=leaning(lean), dynamics={
         "mass": mass, "centre_of_mass": [0, 0, arm], "inertia": [[across, 0, 0], [0, across, 0], [0, 0, along]],
-        "angular_velocity": [spin * math.sin(lean), 0, spin * math.cos(lean)]})
-    if is_on_robot and not is_ours(tool):
+        "angular_velocity": spins})
+    if robot and not is_ours(tool):
         raise NotForPeer
-    robot = {"name": "lift", "urdf": "lift.urdf", "dynamics": {"base": "fixed", "motors": {"lift": {"position": 0}}}}
-    run = simulate(tool, scene([top] if is_on_robot else [FLOOR, top], 1.0, step, contact_distance=1e-5,
-                               **({"robots": [robot]} if is_on_robot else {})), [("lift.urdf", TRAY)])
+    tray = {"name": "lift", "urdf": "lift.urdf", "dynamics": {"base": "fixed", "motors": {"lift": {"position": 0}}}}
+    link = {"name": "top", "urdf": "top.urdf", "base": top["pose"], "dynamics": {
+        "base": "free", "angular_velocity": spins}}
+    bodies, robots = {None: ([FLOOR, top], []), "tray": ([top], [tray]), "link": ([FLOOR], [link])}[robot]
+    run = simulate(tool, scene(bodies, 1.0, step, contact_distance=1e-5, **({"robots": robots} if robots else {})),
+                   [("lift.urdf", TRAY), ("top.urdf", TOP)])
     about_axis = along * spin
     about_z = about_axis * math.cos(lean)
 
@@ -173,9 +184,40 @@ def top_on_its_tip(tool, step, is_on_robot=False):
     for tenth in range(1, 11):
         state = runge_kutta(rates, state, 0.1, 2000)
         right = [math.sin(state[0]) * math.cos(state[2]), math.sin(state[0]) * math.sin(state[2]), math.cos(state[0])]
-        found = turned(run.body(0 if is_on_robot else 1, 0.1 * tenth)["quaternion_wxyz"], [0, 0, 1])
+        found = turned(run.body(0 if robot == "tray" else 1, 0.1 * tenth)["quaternion_wxyz"], [0, 0, 1])
         worst = max(worst, math.dist(found, right))
     return worst
+
+
+def arm_on_the_floor(tool, step, damping):
+    """The greatest error of the angles of two links after 0.4 s, whose end slides along a floor without friction."""
+    if not is_ours(tool):
+        raise NotForPeer
+    start, radius, gap = [0.9, -1.4, 1.0], 0.02, 1e-5
+    tip = 0.5 * (math.cos(start[0]) + math.cos(start[0] + start[1]))  # [m]  Below the first hinge.
+    start.append(-start[2] * (1 + math.sin(start[0]) / math.sin(start[0] + start[1])))
+    robot = {"name": "arm", "urdf": "arm.urdf", "state": {"j1": start[0], "j2": start[1]}, "dynamics": {
+        "base": "fixed", "velocities": {"j1": start[2], "j2": start[3]}}}
+    floor = body("floor", box(9, 9, 0.1), (0, 0, -tip - radius - gap - 0.05))
+    end = f'<collision><origin xyz="0 0 -0.5"/><geometry><sphere radius="{radius}"/></geometry></collision>'
+    run = simulate(tool, scene([floor], 0.4, step, robots=[robot], contact_distance=gap),
+                   [("arm.urdf", pendulum_urdf(damping, end))])
+    hanging, mass = two_links(damping), two_links_mass
+
+    def rates(state):
+        """Those of the links without the floor, and what the force of the floor on the end adds."""
+        q1, q2, v1, v2 = state
+        up = [0.5 * (math.sin(q1) + math.sin(q1 + q2)), 0.5 * math.sin(q1 + q2)]
+        _, _, a1, a2 = hanging(state)
+        m11, m12, m22 = mass(q2)
+        push = [(m22 * up[0] - m12 * up[1]) / (m11 * m22 - m12 * m12),
+                (m11 * up[1] - m12 * up[0]) / (m11 * m22 - m12 * m12)]
+        rises = (up[0] * a1 + up[1] * a2
+                 + 0.5 * (math.cos(q1) * v1 * v1 + math.cos(q1 + q2) * (v1 + v2) ** 2))
+        force = -rises / (up[0] * push[0] + up[1] * push[1])
+        return [v1, v2, a1 + force * push[0], a2 + force * push[1]]
+    right = runge_kutta(rates, start, 0.4)
+    return max(abs(a - b) for a, b in zip(right, run.steps[-1]["robots"][0]["positions"]))
 
 
 def disc_on_its_rim(tool, step):

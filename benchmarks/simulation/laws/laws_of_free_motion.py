@@ -5,16 +5,23 @@ import math
 from law_scenes import G, ball, body, box, runge_kutta, scene, simulate
 
 
+# Of a double pendulum: masses [kg], from hinges to middles and from hinge to hinge [m], moments about middles.
+m1, c1, l1, i1, m2, c2, i2 = 1.0, 0.25, 0.5, 0.0208333, 0.7, 0.2, 0.00933333
+
+
+def two_links_mass(q2):
+    """The mass matrix of a double pendulum: m11, m12, m22."""
+    coupling = m2 * l1 * c2 * math.cos(q2)
+    m22 = i2 + m2 * c2 * c2
+    return i1 + m1 * c1 * c1 + m2 * l1 * l1 + m22 + 2 * coupling, m22 + coupling, m22
+
+
 def two_links(damping):
-    """Rates of a double pendulum: masses 1 and 0.7 kg, links of 0.5 m, moments about their middles."""
-    m1, c1, l1, i1, m2, c2, i2 = 1.0, 0.25, 0.5, 0.0208333, 0.7, 0.2, 0.00933333
+    """Rates of a double pendulum whose second joint has damping."""
 
     def rates(state):
         q1, q2, v1, v2 = state
-        coupling = m2 * l1 * c2 * math.cos(q2)
-        m12 = i2 + m2 * c2 * c2 + coupling
-        m11 = i1 + m1 * c1 * c1 + m2 * l1 * l1 + i2 + m2 * c2 * c2 + 2 * coupling
-        m22 = i2 + m2 * c2 * c2
+        m11, m12, m22 = two_links_mass(q2)
         h = m2 * l1 * c2 * math.sin(q2)
         f2 = -m2 * G * c2 * math.sin(q1 + q2) - h * v1 * v1 - damping * v2
         f1 = (-(m1 * c1 + m2 * l1) * G * math.sin(q1) - m2 * G * c2 * math.sin(q1 + q2)
@@ -24,16 +31,17 @@ def two_links(damping):
     return rates
 
 
-def pendulum_urdf(damping):
-    def link(name, mass, middle, moment):
-        return (f'<link name="{name}"><inertial><origin xyz="0 0 {-middle}"/><mass value="{mass}"/><inertia '
+def pendulum_urdf(damping, end=""):
+    """@param end  what the second link has beside its mass"""
+    def link(name, mass, middle, moment, more=""):
+        return (f'<link name="{name}">{more}<inertial><origin xyz="0 0 {-middle}"/><mass value="{mass}"/><inertia '
                 f'ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="0.0001"/></inertial></link>')
 
     def joint(name, parent, child, z, friction=""):
         return (f'<joint name="{name}" type="continuous"><parent link="{parent}"/><child link="{child}"/>'
                 f'<origin xyz="0 0 {z}"/><axis xyz="0 1 0"/>{friction}</joint>')
     return ('<robot name="p">' + link("base", 1, 0, 1) + link("a", 1, 0.25, 0.0208333)
-            + link("b", 0.7, 0.2, 0.00933333) + joint("j1", "base", "a", 0)
+            + link("b", 0.7, 0.2, 0.00933333, end) + joint("j1", "base", "a", 0)
             + joint("j2", "a", "b", -0.5, f'<dynamics damping="{damping}"/>') + "</robot>")
 
 

@@ -142,9 +142,9 @@ double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
   return state_.model.distances.least + way * turn + sagittas;
 }
 
-/// [m]  The same for the velocities of the last solution.
-double IslandPlanner::most_from_curve(std::size_t k) const {
-  const std::array<ContactSide, 2> sides = mean_sides(k, last_->velocities.bodies);
+/// [m]  The same for velocities that bodies have at the end.
+double IslandPlanner::most_from_curve(std::size_t k, const std::vector<ContactBody>& at_end) const {
+  const std::array<ContactSide, 2> sides = mean_sides(k, at_end);
   return most_from_curve(
       moved_contact(touches_[k], acting_[k].now, distance_of(touches_[k]), sides, span_), k, sides);
 }

@@ -80,73 +80,6 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
 }
 
-/// Velocities at the end will lead the robots in contact where a contact will act that closes now:
-/// the mean of both ends would close it. So most plans are solved once.
-void IslandPlanner::choose_rules() {
-  const double slack = slack_of_mean();
-  bool closes = false;
-  for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
-    const ContactPoint& contact = problem_.contacts[k];
-    const double least = contact.least_normal_velocity;
-    const double mean = 0.5 * (normal_velocity(contact, bodies_.bodies()) + least);
-    closes = mean < least_of_mean(k) - slack &&
-             (contact.guess[0] > 0.0 || normal_velocity(contact, problem_.bodies) < least);
-  }
-  std::vector<bool> by_end = robots_by_end_;
-  for (const ContactPoint& contact : problem_.contacts) {
-    for (const std::size_t place : contact.bodies) {
-      if (is_link_body(place)) {
-        const std::size_t r = state_.robots.robot_of(place);
-        by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
-      }
-    }
-  }
-  if (by_end != robots_by_end_) {
-    robots_by_end_ = std::move(by_end);
-    fly_robots();
-  }
-}
-
-/// Whether a robot would leave where it is, were it not for what it touches: then its flight and
-/// the forces of its motors there say little about the plan.
-bool IslandPlanner::leaves(std::size_t robot) const {
-  return state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
-}
-
-bool IslandPlanner::is_link_body(std::size_t place) const {
-  return place < state_.size() && state_.member(place).link_body;
-}
-
-void IslandPlanner::fly_robots() {
-  const std::vector<Eigen::VectorXd> loads = ties_.loads(flights_);
-  if (!loads.empty()) {
-    for (RobotFlight& flight : flights_) {
-      flight.is_known = false;
-    }
-  }
-  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, loads, flights_);
-  state_.robots.set(flights_, problem_);
-  if (!ties_.empty()) {
-    lay_ties();
-  }
-}
-
-/// Flies robots anew where that has to be. Returns whether there were any.
-bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
-  std::vector<bool> led = state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end,
-                                                   state_.start.time + state_.reached, span_);
-  for (std::size_t r = 0; r < led.size(); ++r) {
-    led[r] = led[r] || robots_by_end_[r];
-  }
-  if (led == robots_by_end_) {
-    return false;
-  }
-  robots_by_end_ = std::move(led);
-  fly_robots();
-  last_.reset();
-  return true;
-}
-
 /// Those of the problem, with their free velocities. Others that contacts ahead bring come last.
 void IslandPlanner::set_bodies() {
   for (std::size_t b = problem_.bodies.size(); b < bodies_.bodies().size(); ++b) {
@@ -270,8 +203,11 @@ void IslandPlanner::solve() {
     again = project_plan_again(state_, problem_, *last_, changed_);
   }
   std::optional<double> free;
-  if (spins_) {
-    free = spins_->energy + kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
+  if (spins_ || loads_) {
+    const double of_robots =
+        kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
+    const double of_bodies = spins_ ? spins_->energy : free_energy(state_, problem_) - of_robots;
+    free = of_bodies + (loads_ ? loads_->energy : of_robots);
   }
   last_ = again ? std::move(*again) : project_plan(state_, problem_, free);
   changed_.clear();
@@ -290,7 +226,12 @@ Plan IslandPlanner::plan() {
   solve();
   for (int pass = 0; pass < kPassesOfCurves && !by_end_; ++pass) {
     const bool turns = follow_curves();
-    if (!follow_spins() && !turns) {
+    const bool spins = follow_spins();
+    const bool swings = pass == 0 && follow_loads();
+    if (spins || swings) {
+      last_.reset();
+    }
+    if (!turns && last_) {
       break;
     }
     solve();
@@ -319,11 +260,13 @@ Plan IslandPlanner::plan() {
   std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
   std::vector<OuterImpulse> changes = outer;
+  take_from_flights(changes);
   ties_.add_changes(solution.ties, changes);
   ties_.add_all(solution.ties, outer);
   made.ties = ties_.impulses(solution.ties);
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes,
                                    state_.start.time + state_.reached, span_);
+  state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   keep_on_curves(made);
   push_apart(made);
   settle_ties(made);
@@ -371,7 +314,9 @@ bool IslandPlanner::mean_is_allowed() const {
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     const bool is_kept = is_on_curve(k) && last_->velocities.impulses[k][0] > 0.0;
     const double missing = least_of_mean(k) - normal_velocity(problem_.contacts[k], mean);
-    const bool is_close = missing <= slack || (is_kept && missing * span_ <= most_from_curve(k));
+    const bool is_close =
+        missing <= slack ||
+        (is_kept && missing * span_ <= most_from_curve(k, last_->velocities.bodies));
     if (!is_close) {
       return false;
     }

@@ -111,6 +111,14 @@ class IslandPlanner {
     double energy = 0.0;  // [J]  Of the bodies, where they fly without contacts.
   };
 
+  /// Robots whose flights have the impulses of contacts.
+  struct LoadsOfContacts {
+    std::vector<LinkImpulse> on_links;
+    std::vector<bool> acts;               // Of each robot.
+    double energy = 0.0;                  // [J]  Of robots, where they fly without contacts.
+    std::vector<OuterImpulse> in_flight;  // Of each robot, what its flight has.
+  };
+
   /// How far a plan leads a contact from its curve.
   struct OffCurve {
     double missing = 0.0;  // [m]  So much farther apart it has to be.
@@ -122,9 +130,13 @@ class IslandPlanner {
   [[nodiscard]] double slack_of_mean() const;
   [[nodiscard]] double least_of_mean(std::size_t k) const;
   [[nodiscard]] bool leaves(std::size_t robot) const;
+  [[nodiscard]] double turn_of_links() const;
   [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
+  void fly_all();
+  void set_robots();
+  [[nodiscard]] std::vector<Eigen::VectorXd> loads_on_robots();
   void fly_bodies();
   void lay_ties();
   void fly_with_ties();
@@ -153,6 +165,14 @@ class IslandPlanner {
                                                       const std::vector<ContactBody>& at_end) const;
   [[nodiscard]] bool follow_curves();
   [[nodiscard]] bool follow_spins();
+  [[nodiscard]] bool follow_loads();
+  [[nodiscard]] std::vector<LinkImpulse> impulses_on_links() const;
+  [[nodiscard]] std::vector<bool> loaded_robots(const std::vector<LinkImpulse>& impulses) const;
+  [[nodiscard]] bool change_much(const std::vector<RobotFlight>& flights) const;
+  void take_loads();
+  void forget_flights();
+  void forget_loads();
+  void take_from_flights(std::vector<OuterImpulse>& outer) const;
   [[nodiscard]] bool may_spin(std::size_t k) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> angular_impulses() const;
   [[nodiscard]] bool spins(std::size_t k) const;
@@ -166,7 +186,7 @@ class IslandPlanner {
   [[nodiscard]] OffCurve off_curve(std::size_t k, const Plan& plan) const;
   [[nodiscard]] double most_from_curve(const MovedContact& there, std::size_t k,
                                        const std::array<ContactSide, 2>& sides) const;
-  [[nodiscard]] double most_from_curve(std::size_t k) const;
+  [[nodiscard]] double most_from_curve(std::size_t k, const std::vector<ContactBody>& at_end) const;
   void set_at_rest(ContactProblem& problem) const;
   void push_apart(Plan& plan);
   void limit_push(double most, ContactSolution& push) const;
@@ -182,6 +202,7 @@ class IslandPlanner {
   std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
   std::vector<ActingContact> acting_;           // Those of touches of now.
   std::optional<Spins> spins_ = {};             // Where bodies spin in contact.
+  std::optional<LoadsOfContacts> loads_ = {};   // Where contacts act in flights of robots.
   bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
   bool laid_by_end_ = false;                    // They did when the rows of ties were made.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.

@@ -30,6 +30,11 @@ void IslandPlanner::lay_ties() {
     if (spins(k)) {
       at_end[k].w = flight_.at_end[k].w;
       spinning[k] = true;
+    } else if (is_link_body(k) && loads_) {
+      const RobotFlight& flight = flights_[state_.robots.robot_of(k)];
+      const Eigen::Matrix<double, 6, 1> V = flight.J[state_.robots.link_of(k)] * flight.velocities;
+      at_end[k].v = V.head<3>();
+      at_end[k].w = V.tail<3>();
     }
   }
   ties_.lay(bodies_, {moves, flights_, led_by_end(), at_end, spinning}, problem_);
@@ -64,6 +69,7 @@ void IslandPlanner::follow_ties() {
     const bool is_last = round + 1 == kMostRoundsOfTies;
     if (!is_near && (is_last || !(change <= kGrowthOfTies * before))) {
       ties_.forget();
+      loads_.reset();
       flights_.clear();
       for (ContactPoint& contact : problem_.contacts) {
         contact.guess.setZero();
@@ -74,6 +80,7 @@ void IslandPlanner::follow_ties() {
     before = change;
     ties_.take(last_->velocities.ties);
     take_spins();
+    take_loads();
     fly_with_ties();
   }
 }

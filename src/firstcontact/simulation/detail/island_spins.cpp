@@ -62,9 +62,6 @@ bool IslandPlanner::follow_spins() {
       is_changed = spin(k, impulses[k], tolerance) || is_changed;
     }
   }
-  if (is_changed) {
-    last_.reset();
-  }
   return is_changed;
 }
 
@@ -142,13 +139,19 @@ void IslandPlanner::forget_spins() {
   last_.reset();
 }
 
-/// Solves without spins where they cannot act.
+/// Solves without spins and loads of contacts where they cannot act.
 void IslandPlanner::end_spins() {
-  if (spins_ && (by_end_ || last_->is_limited)) {
-    forget_spins();
-    solve();
-    by_end_ = by_end_ || !mean_is_allowed();
+  if (!(spins_ || loads_) || !(by_end_ || last_->is_limited)) {
+    return;
   }
+  if (loads_) {
+    forget_loads();
+  }
+  if (spins_) {
+    forget_spins();
+  }
+  solve();
+  by_end_ = by_end_ || !mean_is_allowed();
 }
 
 /// Gives velocities at the end the coordinates that they have in the axes of now.

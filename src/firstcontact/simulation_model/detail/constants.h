@@ -196,6 +196,9 @@ inline constexpr int kPassesOfCurves = 2;
 /// Beyond the second it does not matter any more.
 inline constexpr double kSpin = 1e-3;
 inline constexpr double kMostSpin = 100.0;
+/// [rad]  Where links of a robot in contact turn by more in a plan, its flight predicts its motors
+/// and what it touches.
+inline constexpr double kSwing = 1e-4;
 /// [rad]  Bodies that touch turn no farther in a plan, where gyroscopic moments act on them.
 inline constexpr double kMostTurnInContact = 0.5;
 /// [-]  So often does a polygon that stands out lift the contact of its circle in a plan, before
@@ -230,7 +233,7 @@ inline constexpr double kGreatestPhase = 1.0;
 
 /// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
 /// the contact distance. Beyond it velocities at the end of a plan lead the robot.
-inline constexpr double kUnseenPlacement = 0.1;
+inline constexpr double kUnseenPlacement = 0.5;
 
 // Ties.
 

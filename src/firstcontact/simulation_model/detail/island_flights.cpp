@@ -6,6 +6,7 @@
 
 #include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -76,6 +77,37 @@ VectorXd IslandRobots::forces_of(std::size_t r, const std::vector<LinkLoad>& loa
     }
   }
   return forces;
+}
+
+std::vector<LinkLoad> IslandRobots::loads_of(std::size_t r,
+                                             const std::vector<LinkImpulse>& impulses,
+                                             const RobotFlight& flight, double span) const {
+  std::vector<LinkLoad> loads;
+  for (const LinkImpulse& impulse : impulses) {
+    const auto& [of, link] = place_[impulse.member];
+    if (of == r) {
+      const Inertia& inertia = robots_[r].links[link].body->inertia;
+      const Vector3d centre = 0.5 * (centre_of_mass(inertia, robots_[r].now.links[link].X_WB) +
+                                     centre_of_mass(inertia, flight.X_WB[link]));
+      loads.push_back({impulse.member, impulse.linear / span,
+                       (impulse.angular + centre.cross(impulse.linear)) / span});
+    }
+  }
+  return loads;
+}
+
+VectorXd IslandRobots::change_by(std::size_t r, const std::vector<LinkImpulse>& impulses,
+                                 const RobotFlight& flight) const {
+  VectorXd along = VectorXd::Zero(flight.velocities.size());
+  for (const LinkImpulse& impulse : impulses) {
+    const auto& [of, link] = place_[impulse.member];
+    if (of == r) {
+      const Jacobian& J = flight.J[link];
+      along += J.topRows<3>().transpose() * impulse.linear +
+               J.bottomRows<3>().transpose() * impulse.angular;
+    }
+  }
+  return flight.inverse_mass * along;
 }
 
 /// The flight of inertia alone, and drives by the end of the span.
@@ -193,14 +225,17 @@ void IslandRobots::set(const std::vector<RobotFlight>& flights, ContactProblem& 
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
     const RobotFlight& flight = flights[r];
+    const VectorXd velocities = flight.of_contacts.size() > 0
+                                    ? VectorXd(flight.velocities - flight.of_contacts)
+                                    : flight.velocities;
     for (std::size_t k = 0; k < robot.links.size(); ++k) {
       ContactBody& body = problem.bodies[robot.links[k].member];
-      const Eigen::Matrix<double, 6, 1> V = flight.J[k] * flight.velocities;
+      const Eigen::Matrix<double, 6, 1> V = flight.J[k] * velocities;
       body.v = V.head<3>();
       body.w = V.tail<3>();
       body.link = MechanismLink{r, flight.J[k]};
     }
-    problem.mechanisms.push_back({flight.inverse_mass, flight.velocities});
+    problem.mechanisms.push_back({flight.inverse_mass, velocities});
     for (JointDrive drive : flight.drives) {
       drive.mechanism = r;
       problem.drives.push_back(drive);

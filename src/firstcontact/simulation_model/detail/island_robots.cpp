@@ -97,6 +97,8 @@ bool IslandRobots::has_motors() const {
                              [](const Robot& robot) { return robot.robot->motor_count() > 0; });
 }
 
+bool IslandRobots::has_motors(std::size_t r) const { return robots_[r].robot->motor_count() > 0; }
+
 double IslandRobots::longest_span() const {
   double fastest = 0.0;  // [rad/s]
   for (const Robot& robot : robots_) {

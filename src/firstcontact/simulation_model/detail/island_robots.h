@@ -55,6 +55,16 @@ struct RobotFlight {
   std::vector<JointDrive> drives = {};  ///< Of the changes of impulses.
   std::vector<double> predicted = {};   ///< [N m s or N s]  Impulses in the flight, of each drive.
   PositionRule rule = {};
+  /// What impulses of contacts in the flight did to the velocities at its end; empty: there are
+  /// none. A contact problem finds all of these impulses again, and starts without them.
+  Eigen::VectorXd of_contacts = {};
+};
+
+/// Impulses on a link body, about its centre of mass.
+struct LinkImpulse {
+  std::size_t member = 0;                             ///< Of the island.
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]
 };
 
 /// Impulses of what is not of a robot, on all of its links.
@@ -95,6 +105,7 @@ class IslandRobots {
 
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
+  [[nodiscard]] bool has_motors(std::size_t robot) const;
 
   /// [s]  The longest span of a plan: in it no link turns by more than 0.1 rad at its speed of
   /// now.
@@ -138,6 +149,16 @@ class IslandRobots {
   /// through a flight; where that is not known, halfway on the way of now.
   [[nodiscard]] Eigen::VectorXd forces_of(std::size_t robot, const std::vector<LinkLoad>& loads,
                                           const RobotFlight& flight, double span) const;
+
+  /// Impulses on links of a robot as forces over a span, where a flight is halfway.
+  [[nodiscard]] std::vector<LinkLoad> loads_of(std::size_t robot,
+                                               const std::vector<LinkImpulse>& impulses,
+                                               const RobotFlight& flight, double span) const;
+
+  /// [rad/s or m/s]  What impulses on links of a robot do to its velocities where a flight ends.
+  [[nodiscard]] Eigen::VectorXd change_by(std::size_t robot,
+                                          const std::vector<LinkImpulse>& impulses,
+                                          const RobotFlight& flight) const;
 
   /// [rad or m]  How far the changes of velocities in a flight lead a coordinate, at most.
   [[nodiscard]] double change_of_way(std::size_t robot, const RobotFlight& flight,

@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// [m/s]  The fastest point that a change of a robot's velocities moves on any of its links, by a
+/// bound.
+double fastest_of(const IslandState& state, std::size_t robot, const RobotFlight& flight,
+                  const VectorXd& change) {
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    if (state.member(k).link_body && state.robots.robot_of(k) == robot) {
+      const Eigen::Matrix<double, 6, 1> V = flight.J[state.robots.link_of(k)] * change;
+      fastest = std::max(fastest, V.head<3>().norm() + state.member(k).reach * V.tail<3>().norm());
+    }
+  }
+  return fastest;
+}
+
+bool is_any(const std::vector<bool>& flags) {
+  return std::ranges::find(flags, true) != flags.end();
+}
+
+}  // namespace
+
+/// Velocities at the end will lead the robots in contact where a contact will act that closes now:
+/// the mean of both ends would close it. So most plans are solved once.
+void IslandPlanner::choose_rules() {
+  const double slack = slack_of_mean();
+  bool closes = false;
+  for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const double least = contact.least_normal_velocity;
+    const double mean = 0.5 * (normal_velocity(contact, bodies_.bodies()) + least);
+    const double missing = least_of_mean(k) - mean;
+    closes = missing > slack &&
+             (contact.guess[0] > 0.0 || normal_velocity(contact, problem_.bodies) < least) &&
+             !(is_on_curve(k) && missing * span_ <= most_from_curve(k, bodies_.bodies()));
+  }
+  std::vector<bool> by_end = robots_by_end_;
+  for (const ContactPoint& contact : problem_.contacts) {
+    for (const std::size_t place : contact.bodies) {
+      if (is_link_body(place)) {
+        const std::size_t r = state_.robots.robot_of(place);
+        by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
+      }
+    }
+  }
+  if (by_end != robots_by_end_) {
+    robots_by_end_ = std::move(by_end);
+    fly_robots();
+  }
+}
+
+/// Whether motors drive a robot that would leave where it is, were it not for what it touches: then
+/// its flight and the forces of its motors there say little about the plan. Where links turn they
+/// do, as the flight takes the contacts.
+bool IslandPlanner::leaves(std::size_t robot) const {
+  return state_.robots.has_motors(robot) && turn_of_links() < kSwing &&
+         state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
+}
+
+bool IslandPlanner::is_link_body(std::size_t place) const {
+  return place < state_.size() && state_.member(place).link_body;
+}
+
+void IslandPlanner::fly_robots() {
+  fly_all();
+  set_robots();
+}
+
+/// Makes the flights of robots that are not known or have loads.
+void IslandPlanner::fly_all() {
+  const std::vector<Eigen::VectorXd> loads = loads_on_robots();
+  if (!loads.empty()) {
+    for (RobotFlight& flight : flights_) {
+      flight.is_known = false;
+    }
+  }
+  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, loads, flights_);
+  for (std::size_t r = 0; r < flights_.size() && loads_; ++r) {
+    if (loads_->acts[r]) {
+      flights_[r].of_contacts = state_.robots.change_by(r, loads_->on_links, flights_[r]);
+    }
+  }
+}
+
+void IslandPlanner::set_robots() {
+  state_.robots.set(flights_, problem_);
+  if (!ties_.empty()) {
+    lay_ties();
+  }
+}
+
+/// Flies robots anew where that has to be. Returns whether there were any.
+bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
+  std::vector<bool> led = state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end,
+                                                   state_.start.time + state_.reached, span_);
+  for (std::size_t r = 0; r < led.size(); ++r) {
+    led[r] = led[r] || robots_by_end_[r];
+  }
+  if (led == robots_by_end_) {
+    return false;
+  }
+  robots_by_end_ = std::move(led);
+  fly_robots();
+  last_.reset();
+  return true;
+}
+
+/// [rad]  By how much the link that turns fastest now turns in the plan.
+double IslandPlanner::turn_of_links() const {
+  return kMostTurnOfLinks * span_ / state_.robots.longest_span();
+}
+
+/// Those of the last solution's contacts on link bodies.
+std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
+  std::vector<LinkImpulse> impulses;
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const Vector3d on_B = contact.frame.transpose() * last_->velocities.impulses[k];
+    for (std::size_t s = 0; s < 2 && !on_B.isZero(0.0); ++s) {
+      if (is_link_body(contact.bodies[s])) {
+        const Vector3d on = s == 0 ? Vector3d(-on_B) : on_B;
+        const Vector3d& arm = s == 0 ? contact.arm_A : contact.arm_B;
+        impulses.push_back({contact.bodies[s], on, arm.cross(on)});
+      }
+    }
+  }
+  return impulses;
+}
+
+/// The robots whose links turn while contacts change their velocities: inertia acts on the change.
+std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& impulses) const {
+  const double tolerance = projection_options(state_, problem_).tolerance;
+  std::vector<bool> loaded(state_.robots.size(), false);
+  for (const LinkImpulse& impulse : impulses) {
+    loaded[state_.robots.robot_of(impulse.member)] = true;
+  }
+  for (std::size_t r = 0; r < loaded.size(); ++r) {
+    if (loads_ && loads_->acts[r]) {
+      loaded[r] = true;
+    } else if (loaded[r]) {
+      const VectorXd change = state_.robots.change_by(r, impulses, flights_[r]);
+      loaded[r] = !robots_by_end_[r] &&
+                  turn_of_links() * fastest_of(state_, r, flights_[r], change) > tolerance;
+    }
+  }
+  return loaded;
+}
+
+/// Whether robots that contacts act on in flights get elsewhere than the last solution has them.
+bool IslandPlanner::change_much(const std::vector<RobotFlight>& flights) const {
+  const double tolerance = projection_options(state_, problem_).tolerance;
+  for (std::size_t r = 0; r < flights.size(); ++r) {
+    if (loads_->acts[r]) {
+      const VectorXd otherwise = flights[r].end.velocities - last_->velocities.mechanisms[r];
+      if (fastest_of(state_, r, flights[r], otherwise) > tolerance) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Lets robots fly with the impulses of the last solution's contacts, as bodies that spin do.
+/// Returns whether that changes the problem.
+bool IslandPlanner::follow_loads() {
+  if (state_.robots.empty() || last_->is_limited || !is_solved(state_, last_->velocities)) {
+    return false;
+  }
+  std::vector<LinkImpulse> impulses = impulses_on_links();
+  std::vector<bool> acts = loaded_robots(impulses);
+  if (!is_any(acts)) {
+    return false;
+  }
+  std::vector<RobotFlight> flights = flights_;
+  const std::optional<LoadsOfContacts> before = loads_;
+  const double energy =
+      before ? before->energy
+             : kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
+  loads_ = LoadsOfContacts{std::move(impulses), std::move(acts), energy, {}};
+  fly_all();
+  if (!change_much(flights_)) {
+    flights_ = std::move(flights);
+    loads_ = before;
+    return false;
+  }
+  set_robots();
+  return true;
+}
+
+/// The forces along the coordinates of robots that ties, forces on links and contacts are; empty:
+/// there are none.
+std::vector<VectorXd> IslandPlanner::loads_on_robots() {
+  std::vector<VectorXd> forces = ties_.loads(flights_);
+  if (!loads_) {
+    return forces;
+  }
+  for (std::size_t r = 0; r < loads_->acts.size(); ++r) {
+    loads_->acts[r] = loads_->acts[r] && !robots_by_end_[r];
+  }
+  if (!is_any(loads_->acts)) {
+    forget_flights();
+    return forces;
+  }
+  forces.resize(state_.robots.size());
+  loads_->in_flight.assign(state_.robots.size(), {});
+  for (std::size_t r = 0; r < forces.size(); ++r) {
+    if (!loads_->acts[r]) {
+      continue;
+    }
+    const std::vector<LinkLoad> loads =
+        state_.robots.loads_of(r, loads_->on_links, flights_[r], span_);
+    for (const LinkLoad& load : loads) {
+      loads_->in_flight[r].linear += span_ * load.force;
+      loads_->in_flight[r].angular += span_ * load.torque;
+    }
+    const VectorXd of_contacts = state_.robots.forces_of(r, loads, flights_[r], span_);
+    forces[r] = forces[r].size() > 0 ? VectorXd(forces[r] + of_contacts) : of_contacts;
+  }
+  return forces;
+}
+
+/// Takes the impulses that flights have off those that robots get.
+void IslandPlanner::take_from_flights(std::vector<OuterImpulse>& outer) const {
+  for (std::size_t r = 0; r < outer.size() && loads_; ++r) {
+    outer[r].linear -= loads_->in_flight[r].linear;
+    outer[r].angular -= loads_->in_flight[r].angular;
+  }
+}
+
+/// The next flights have the impulses of the last solution.
+void IslandPlanner::take_loads() {
+  if (by_end_) {
+    loads_.reset();
+  }
+  if (loads_ && is_solved(state_, last_->velocities)) {
+    loads_->on_links = impulses_on_links();
+  }
+}
+
+/// No flight has contacts any more.
+void IslandPlanner::forget_flights() {
+  loads_.reset();
+  for (RobotFlight& flight : flights_) {
+    flight.is_known = false;
+  }
+}
+
+/// Where velocities at the end lead, or were limited, robots fly without contacts.
+void IslandPlanner::forget_loads() {
+  forget_flights();
+  fly_robots();
+  last_.reset();
+}
+
+}  // namespace firstcontact::detail
