@@ -158,8 +158,8 @@ class Island {
 
   /// [s]  In which a contact on a rim stays near its place on it, and one on an ellipsoid has
   /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count. Over
-  /// the flat side of an ellipsoid it runs fast for a short time. One ellipsoid has plans of a
-  /// hundredth of a step there: with several of them they would take too long.
+  /// the flat side of an ellipsoid it runs fast for a short time. Few bodies have plans of a
+  /// hundredth of a step there: with many of them they would take too long.
   [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
     double longest = std::numeric_limits<double>::infinity();
     if (!touch.round[0].is_curved() && !touch.round[1].is_curved()) {
@@ -173,16 +173,9 @@ class Island {
     }
     const double on_ellipsoid =
         span_on_ellipsoid(touch.normal, sides, span_, state_.model.distances.least);
-    const double least = is_one_ellipsoid() ? kLeastShareOfFast * state_.start.h : shortest;
+    const bool is_small = state_.size() < kSeveralBodies;
+    const double least = is_small ? kLeastShareOfFast * state_.start.h : shortest;
     return std::min(longest, std::max(on_ellipsoid, least));
-  }
-
-  /// Whether an ellipsoid moves with few others, none of which is one.
-  [[nodiscard]] bool is_one_ellipsoid() const {
-    return state_.size() < kSeveralBodies &&
-           std::ranges::count_if(state_.members, [&](std::size_t body) {
-             return state_.model.bodies[body].ellipsoid.has_value();
-           }) == 1;
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until

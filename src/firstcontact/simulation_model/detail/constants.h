@@ -184,7 +184,7 @@ inline constexpr double kTurnOnCorner = 0.01;
 /// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;
 /// [-]  And so short that the arm of a contact on an ellipsoid changes by no more, by its length:
-/// down to a tenth of a step, where one ellipsoid moves with few other bodies to a hundredth.
+/// down to a tenth of a step, of fewer than kSeveralBodies to a hundredth.
 /// Larger: flat or long ellipsoids gain energy.
 inline constexpr double kArmOfPlan = 0.05;
 /// [-]  And so short that the way of the ellipsoid's centre bends by no more, by the contact
