@@ -16,6 +16,8 @@
 #include <firstcontact/run_page/write_run_animation.h>
 #include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene_files/read_simulation_scene.h>
@@ -269,19 +271,36 @@ class Run {
     flush_stdout();
   }
 
-  /// The bodies that waited, those that did so longest first.
+  /// What a body of a run moves with: itself, or the robot that it is a link of.
+  [[nodiscard]] std::string mover_of(std::size_t body) const {
+    const Scene& scene = simulator_.header().scene;
+    const std::string& name = simulator_.loaded().scene.bodies[body].name;
+    if (body < scene.bodies.size()) {
+      return name;
+    }
+    const auto robot = std::ranges::find_if(scene.robots, [&](const SceneRobot& described) {
+      return name.starts_with(described.name + "/");
+    });
+    return robot->name;
+  }
+
+  /// The bodies and robots that waited, those that did so longest first.
   [[nodiscard]] std::string waited() const {
     constexpr std::size_t kMost = 3;
-    std::vector<std::pair<double, std::size_t>> longest;
+    std::map<std::string, double> movers;
     for (const auto& [body, seconds] : tally_.behind) {
-      longest.emplace_back(-seconds, body);
+      double& most = movers[mover_of(body)];
+      most = std::max(most, seconds);
+    }
+    std::vector<std::pair<double, std::string>> longest;
+    for (const auto& [name, seconds] : movers) {
+      longest.emplace_back(-seconds, name);
     }
     std::ranges::sort(longest);
-    const std::vector<Body>& bodies = simulator_.loaded().scene.bodies;
     std::string text;
     for (std::size_t k = 0; k < std::min(kMost, longest.size()); ++k) {
-      text += fmt::format("{}{}, up to {} behind its motion", k == 0 ? "" : "; ",
-                          bodies[longest[k].second].name, time_text(-longest[k].first));
+      text += fmt::format("{}{}, up to {} behind its motion", k == 0 ? "" : "; ", longest[k].second,
+                          time_text(-longest[k].first));
     }
     return text +
            (longest.size() > kMost ? fmt::format("; {} others", longest.size() - kMost) : "");

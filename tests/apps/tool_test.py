@@ -201,6 +201,26 @@ class Simulate(ToolTest):
         verified = self.run_tool("verify", run)
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
 
+    def test_names_a_robot_that_waits_once(self):
+        link = """<link name="{}"><collision><origin xyz="0 0 {}"/><geometry><box size="{}"/></geometry></collision></link>"""
+        (self.folder / "r.urdf").write_text(
+            '<robot name="r"><link name="base"/>' + link.format("sled", 0, "0.1 0.1 0.1")
+            + link.format("arm", 0.3, "0.05 0.05 0.4")
+            + '<joint name="rail" type="prismatic"><parent link="base"/><child link="sled"/><axis xyz="1 0 0"/>'
+            '<origin xyz="0 0 0.06"/><limit lower="-9" upper="9" effort="0" velocity="9"/></joint>'
+            '<joint name="mount" type="fixed"><parent link="sled"/><child link="arm"/></joint></robot>',
+            encoding="utf-8")
+        cube = {"name": "cube", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [0.29, 0, 0.051]},
+                "dynamics": {"mass": 1}}
+        wall = {"name": "wall", "shape": {"box": {"size": [0.1, 1, 1]}}, "pose": {"position": [0.4, 0, 0.5]}}
+        done = self.run_tool("simulate", self.scene({
+            "firstcontact": 1, "bodies": [cube, wall, self.FLOOR], "robots": [{
+                "name": "r", "urdf": "r.urdf", "trajectory": {"joint_names": ["rail"], "points": [
+                    {"positions": [0], "time_from_start": 0}, {"positions": [0.5], "time_from_start": 1}]}}],
+            "simulation": {"duration": 1, "step": 0.01, "jams": "wait"}}))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stdout, r"(?m)^  waited +r, up to [\d.]+ ms behind its motion$")
+
     def test_goes_on_bit_for_bit_where_it_was_cut_off(self):
         whole, cut = (self.folder / "whole.jsonl"), (self.folder / "cut.jsonl")
         scene = self.scene(self.SCENE)
