@@ -253,18 +253,18 @@ class HapticsRun {
   void require_buttons(std::size_t tool) const {
     const DeviceMapping& mapping = setup_.options.mappings[tool];
     const DeviceCapabilities& device = devices_[tool]->capabilities();
-    const bool is_recorded = dynamic_cast<const RecordedDevice*>(devices_[tool].get()) != nullptr;
     std::vector<std::pair<const char*, int>> buttons{{"dead_man_button", mapping.dead_man_button},
                                                      {"clutch_button", mapping.clutch_button}};
     for (const GripMapping& grip : mapping.grips) {
       buttons.emplace_back("button of a grip", grip.button);
     }
     for (const auto& [key, button] : buttons) {
-      if (!is_recorded && button >= static_cast<int>(device.buttons)) {
+      if (button >= static_cast<int>(device.buttons)) {
         throw ParseError(arguments_.scene,
-                         fmt::format("haptics: {} is {}, but the device {} has {} buttons; choose "
+                         fmt::format("haptics: {} is {}, but {} has {} buttons; choose "
                                      "one of them from 0, or leave the key out",
-                                     key, button, device.name, device.buttons));
+                                     key, button, device.name.empty() ? "the device" : device.name,
+                                     device.buttons));
       }
     }
   }

@@ -122,6 +122,14 @@ class Haptics(tool_test.ToolTest):
         self.jaws({"joints": {"slide": [0, 0.035]}, "button": 0, "seconds": 0.1})
         self.assertEqual(self.haptics("--device", "simulated", "--duration", "0.2").returncode, 0)
 
+    def test_refuses_a_button_that_a_recording_has_no_column_for(self):
+        self.jaws({"joints": {"slide": [0, 0.035]}, "button": 1, "seconds": 0.1})
+        self.glove([""] * 10, columns="")
+        self.assert_writes_nothing(self.haptics("--device", "glove.csv"), "scene.json",
+                                   "button of a grip is 1", "the device has 0 buttons")
+        self.glove([",2"] * 10, columns=",buttons")
+        self.assertEqual(self.haptics("--device", "glove.csv").returncode, 0)
+
     def peak_memory(self, *arguments):
         """[bytes]  Of a session, however its allocator keeps what is freed."""
         process = self.start("haptics", "scene.json", "--device", "simulated", "--force", *arguments,

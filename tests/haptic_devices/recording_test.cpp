@@ -76,6 +76,21 @@ void expect_same(const DeviceState& a, const DeviceState& b) {
   EXPECT_EQ(a.status, b.status);
 }
 
+TEST(Recording, HasAsManyButtonsAsItsColumnCanPress) {
+  const auto buttons_of = [](const std::string& key, const std::string& column) {
+    const std::string cell = column.empty() ? "" : ",5";
+    return parse_recording("# firstcontact recording: 1\n" + key +
+                               "time_ns,sequence,x,y,z,qw,qx,qy,qz" + column +
+                               "\n0,1,0,0,0,1,0,0,0" + cell + "\n",
+                           "hand.csv")
+        .capabilities.buttons;
+  };
+  EXPECT_EQ(buttons_of("", ""), 0);
+  EXPECT_EQ(buttons_of("", ",buttons"), 32);
+  EXPECT_EQ(buttons_of("# buttons: 3\n", ",buttons"), 3);
+  EXPECT_EQ(buttons_of("# buttons: 3\n", ""), 0);
+}
+
 TEST(Recording, ReadsBackToTheSameNumbers) {
   for (const DeviceKind kind : {DeviceKind::pose, DeviceKind::rate}) {
     const Recording written = random_recording(kind, 3);

@@ -73,12 +73,17 @@ bool is_needed(Column column, DeviceKind kind) {
   return kind == DeviceKind::pose ? of_pose : of_rate;
 }
 
+/// Numbers of buttons: the most that samples can have, and that of a head that has none.
+constexpr int kMostButtons = 32;
+constexpr int kUnstated = -1;
+
 class RecordingParser {
  public:
   RecordingParser(std::string_view text, std::string source)
       : rest_(detail::without_byte_order_mark(text)), source_(std::move(source)) {}
 
   Recording parse() {
+    recording_.capabilities.buttons = kUnstated;
     read_title();
     while (next_line()) {
       if (line_.starts_with("##")) {
@@ -186,6 +191,7 @@ class RecordingParser {
       }
       columns_.push_back(column);
     }
+    count_buttons();
     for (std::size_t k = 0; k < static_cast<std::size_t>(recording_.capabilities.grips); ++k) {
       if (std::ranges::find(grips_, std::optional(k)) == grips_.end()) {
         fail("column 'grip" + std::to_string(k) + "' is missing: grips count from grip0 on");
@@ -198,6 +204,16 @@ class RecordingParser {
         fail("column '" + std::string(name_of(column)) + "' is missing, which recordings of kind " +
              kDeviceKindWords[static_cast<std::size_t>(recording_.capabilities.kind)] + " have");
       }
+    }
+  }
+
+  /// Without their column none is ever pressed; without their key there may be any.
+  void count_buttons() {
+    int& buttons = recording_.capabilities.buttons;
+    if (std::ranges::find(columns_, Column::buttons) == columns_.end()) {
+      buttons = 0;
+    } else if (buttons == kUnstated) {
+      buttons = kMostButtons;
     }
   }
 
