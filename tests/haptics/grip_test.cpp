@@ -455,6 +455,21 @@ TEST(Grip, NothingActsOnceTheDeviceIsLostOrMakesNoSense) {
   EXPECT_NEAR(session.joint(0), held, 1e-6);  // The fingers stay.
 }
 
+// As the force does: by its slew, 2000 of the limit of 1 J a second.
+TEST(Grip, EffortsEndBySlewAtTheClutch) {
+  DeviceMapping mapping = one_grip(kJawWay);
+  mapping.clutch_button = 0;
+  GripSession session(around_a_cube_of(0.0), mapping);
+  session.step(Vector3d::Zero(), 0.0, 1000);
+  const double held = session.step(Vector3d::Zero(), 1.0, 1000).tools[0].command.grips[0];
+  EXPECT_LT(held, -0.5);
+  session.device_.buttons = 1;
+  const ForceTick& first = session.step(Vector3d::Zero(), 1.0);
+  EXPECT_NEAR(first.tools[0].command.grips[0], held + 0.5, 1e-12);
+  EXPECT_NE(first.tools[0].faults & static_cast<std::uint32_t>(ForceFault::slewed), 0U);
+  EXPECT_EQ(session.step(Vector3d::Zero(), 1.0, 3).tools[0].command.grips[0], 0.0);
+}
+
 TEST(Grip, RefusesJointsThatMakeNoSense) {
   const auto refusal = [](auto change) {
     HapticScene scene = grip_scene(gripper());

@@ -321,12 +321,17 @@ class ForceLoop::Implementation {
     return share;
   }
 
+  /// Whether a force would reach a device that is lost, or is no number.
+  static bool ends_at_once(const ToolTick& tick) noexcept {
+    constexpr std::uint32_t kAtOnce = static_cast<std::uint32_t>(ForceFault::device) |
+                                      static_cast<std::uint32_t>(ForceFault::not_finite);
+    return (tick.faults & kAtOnce) != 0;
+  }
+
   void give_force(std::size_t k, const Coordinates& force, double seconds) noexcept {
     ToolTick& tick = tick_.tools[k];
     const detail::FeltTool& tool = tools_[k];
-    constexpr std::uint32_t kAtOnce = static_cast<std::uint32_t>(ForceFault::device) |
-                                      static_cast<std::uint32_t>(ForceFault::not_finite);
-    if ((tick.faults & kAtOnce) != 0) {
+    if (ends_at_once(tick)) {
       set_force(tick, tool, Vector3d::Zero(), Vector3d::Zero());
       return;
     }
@@ -392,7 +397,7 @@ class ForceLoop::Implementation {
         tick.faults |= bit(ForceFault::limited);
       }
       const double before = tick.command.grips[grip];
-      if (tool.follower.is_engaged() && std::abs(effort - before) > kSlew * most * seconds) {
+      if (!ends_at_once(tick) && std::abs(effort - before) > kSlew * most * seconds) {
         effort =
             std::clamp(effort, before - kSlew * most * seconds, before + kSlew * most * seconds);
         tick.faults |= bit(ForceFault::slewed);
