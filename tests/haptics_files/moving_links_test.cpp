@@ -267,5 +267,18 @@ TEST_F(MovingLinks, RefuseGripsThatMakeNoSense) {
        "position");
 }
 
+// It would stop the grip before its end.
+TEST_F(MovingLinks, RefuseAGripThatLeadsAJointThatMimicsBeyondItsLimits) {
+  std::string narrow = kHand;
+  const std::string limits = "lower=\"-2\" upper=\"0.6\"";
+  narrow.replace(narrow.find(limits), limits.size(), "lower=\"-0.2\" upper=\"0.6\"");
+  std::ofstream(folder_ / "hand.urdf") << narrow;
+  EXPECT_NE(refusal("", R"(, "grips": [{"joints": {"bend": [0, 0.8]}}])")
+                .find("joints.bend[1]: expected a position of joint \"bend\" that leads \"follow\" "
+                      "within its limits, -0.2 to 0.6, got -0.3"),
+            std::string::npos);
+  EXPECT_NO_THROW((void)parse("", R"(, "grips": [{"joints": {"bend": [0, 0.5]}}])"));
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/text/write_json.h>
@@ -103,19 +106,41 @@ class GripsReader {
     return *found;
   }
 
+  /// Within the limits of the joint, and of those that mimic it.
   double position(std::size_t number, const JsonValue& value) const {
-    const Joint& joint = robot_.model.joints()[number];
     const double position = read_.number(value);
-    if ((joint.limits.lower && position < *joint.limits.lower) ||
-        (joint.limits.upper && position > *joint.limits.upper)) {
+    const std::span<const Joint> joints = robot_.model.joints();
+    for (const Joint& joint : joints) {
+      const std::optional<double> there = led_to(joint, joints[number], position);
+      if (!there || (there >= joint.limits.lower.value_or(*there) &&
+                     there <= joint.limits.upper.value_or(*there))) {
+        continue;
+      }
       const auto limit = [](const std::optional<double>& number_of) {
         return number_of ? write_json(*number_of) : std::string("none");
       };
-      read_.fail(value, "expected a position of joint " + in_quotes(joint.name) +
-                            " within its limits, " + limit(joint.limits.lower) + " to " +
-                            limit(joint.limits.upper) + ", got " + write_json(position));
+      const std::string limits =
+          limit(joint.limits.lower) + " to " + limit(joint.limits.upper) + ", got ";
+      read_.fail(value, "expected a position of joint " + in_quotes(joints[number].name) +
+                            (joint.mimic ? " that leads " + in_quotes(joint.name) : std::string()) +
+                            " within its limits, " + limits + write_json(*there));
     }
     return position;
+  }
+
+  /// Where a joint is that is another one, or mimics it.
+  [[nodiscard]] std::optional<double> led_to(const Joint& joint, const Joint& leader,
+                                             double position) const {
+    if (joint.name == leader.name) {
+      return position;
+    }
+    if (!joint.mimic) {
+      return std::nullopt;
+    }
+    const Joint& next = robot_.model.joints()[robot_.model.find_joint(joint.mimic->joint).value()];
+    const std::optional<double> there = led_to(next, leader, position);
+    return there ? std::optional(joint.mimic->multiplier * *there + joint.mimic->offset)
+                 : std::nullopt;
   }
 
   const SceneRobot& robot_;

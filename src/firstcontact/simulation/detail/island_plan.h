@@ -168,7 +168,8 @@ class IslandPlanner {
   [[nodiscard]] bool follow_loads();
   [[nodiscard]] std::vector<LinkImpulse> impulses_on_links() const;
   [[nodiscard]] std::vector<bool> loaded_robots(const std::vector<LinkImpulse>& impulses) const;
-  [[nodiscard]] bool change_much(const std::vector<RobotFlight>& flights) const;
+  [[nodiscard]] bool loads_change_much() const;
+  void end_loads_by_rule();
   void take_loads();
   void forget_flights();
   void forget_loads();

@@ -85,6 +85,7 @@ void IslandPlanner::fly_robots() {
 
 /// Makes the flights of robots that are not known or have loads.
 void IslandPlanner::fly_all() {
+  end_loads_by_rule();
   const std::vector<Eigen::VectorXd> loads = loads_on_robots();
   if (!loads.empty()) {
     for (RobotFlight& flight : flights_) {
@@ -164,12 +165,12 @@ std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& i
 }
 
 /// Whether robots that contacts act on in flights get elsewhere than the last solution has them.
-bool IslandPlanner::change_much(const std::vector<RobotFlight>& flights) const {
+bool IslandPlanner::loads_change_much() const {
   const double tolerance = projection_options(state_, problem_).tolerance;
-  for (std::size_t r = 0; r < flights.size(); ++r) {
+  for (std::size_t r = 0; r < flights_.size(); ++r) {
     if (loads_->acts[r]) {
-      const VectorXd otherwise = flights[r].end.velocities - last_->velocities.mechanisms[r];
-      if (fastest_of(state_, r, flights[r], otherwise) > tolerance) {
+      const VectorXd otherwise = flights_[r].end.velocities - last_->velocities.mechanisms[r];
+      if (fastest_of(state_, r, flights_[r], otherwise) > tolerance) {
         return true;
       }
     }
@@ -195,7 +196,7 @@ bool IslandPlanner::follow_loads() {
              : kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
   loads_ = LoadsOfContacts{std::move(impulses), std::move(acts), energy, {}};
   fly_all();
-  if (!change_much(flights_)) {
+  if (!loads_change_much()) {
     flights_ = std::move(flights);
     loads_ = before;
     return false;
@@ -204,18 +205,21 @@ bool IslandPlanner::follow_loads() {
   return true;
 }
 
+/// Robots that velocities at the end lead fly without contacts.
+void IslandPlanner::end_loads_by_rule() {
+  for (std::size_t r = 0; r < robots_by_end_.size() && loads_; ++r) {
+    loads_->acts[r] = loads_->acts[r] && !robots_by_end_[r];
+  }
+  if (loads_ && !is_any(loads_->acts)) {
+    forget_flights();
+  }
+}
+
 /// The forces along the coordinates of robots that ties, forces on links and contacts are; empty:
 /// there are none.
 std::vector<VectorXd> IslandPlanner::loads_on_robots() {
   std::vector<VectorXd> forces = ties_.loads(flights_);
   if (!loads_) {
-    return forces;
-  }
-  for (std::size_t r = 0; r < loads_->acts.size(); ++r) {
-    loads_->acts[r] = loads_->acts[r] && !robots_by_end_[r];
-  }
-  if (!is_any(loads_->acts)) {
-    forget_flights();
     return forces;
   }
   forces.resize(state_.robots.size());
