@@ -6,19 +6,13 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include <Eigen/Core>
 
-namespace firstcontact::test {
+#include "simulation/simulated_run.h"
 
-inline std::string text_of(double number) {
-  std::ostringstream out;
-  out.precision(17);
-  out << number;
-  return out.str();
-}
+namespace firstcontact::test {
 
 /// A link with moments of inertia (x, y, z) about its centre, and perhaps a box there; `more` is
 /// what it has beside.
@@ -26,9 +20,9 @@ inline std::string massive(const std::string& name, double mass, const std::stri
                            const std::array<double, 3>& moments, const std::string& box_size = "",
                            const std::string& more = "") {
   const std::string origin = R"(<origin xyz=")" + centre + R"("/>)";
-  return "<link name=\"" + name + "\"><inertial>" + origin + "<mass value=\"" + text_of(mass) +
-         "\"/><inertia ixx=\"" + text_of(moments[0]) + "\" iyy=\"" + text_of(moments[1]) +
-         "\" izz=\"" + text_of(moments[2]) + "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>" +
+  return "<link name=\"" + name + "\"><inertial>" + origin + "<mass value=\"" + number_text(mass) +
+         "\"/><inertia ixx=\"" + number_text(moments[0]) + "\" iyy=\"" + number_text(moments[1]) +
+         "\" izz=\"" + number_text(moments[2]) + "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>" +
          (box_size.empty() ? ""
                            : "<collision>" + origin + "<geometry><box size=\"" + box_size +
                                  "\"/></geometry></collision>") +

@@ -28,9 +28,9 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using test::kLength;
+using test::number_text;
 using test::numbers;
 using test::Swing;
-using test::text_of;
 using test::Top;
 
 constexpr double kNear = 1e-5;    // [m]  Contact distance.
@@ -74,7 +74,7 @@ class RobotContact : public testing::Test {
 
 std::string ball_at(const std::string& place) {
   return R"(<collision><origin xyz=")" + place + R"("/><geometry><sphere radius=")" +
-         text_of(kRadius) + R"("/></geometry></collision>)";
+         number_text(kRadius) + R"("/></geometry></collision>)";
 }
 
 // Plans of a robot are as long as its links turn by 0.1 rad.
@@ -183,7 +183,8 @@ TEST_F(RobotContact, AnArmSlidesAlongAFloorAsLagrangeHasIt) {
     const Swing right = slid(start, slide.torques, slide.friction);
     const std::string robot =
         R"("state": {"j1": 0.9, "j2": -1.4}, "dynamics": {"base": "fixed", "velocities": {"j1": )" +
-        text_of(start.v[0]) + R"(, "j2": )" + text_of(start.v[1]) + "}" + slide.dynamics + "}";
+        number_text(start.v[0]) + R"(, "j2": )" + number_text(start.v[1]) + "}" + slide.dynamics +
+        "}";
     for (const double step : {0.005, 0.0025, 0.00125, 0.000625}) {
       const RunRobot last =
           run(test::double_pendulum(slide.joint, slide.joint, ball_at("0 0 -0.5")), floor, robot,

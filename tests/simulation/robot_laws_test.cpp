@@ -37,10 +37,10 @@ using test::kM1;
 using test::kM2;
 using test::kPull;
 using test::massive;
+using test::number_text;
 using test::pendulum_bias;
 using test::pendulum_mass;
 using test::Swing;
-using test::text_of;
 
 /// A folder with the URDF file of a test.
 class RobotLaws : public testing::Test {
@@ -184,7 +184,7 @@ TEST_F(RobotLaws, AreOfSecondOrderInTheStep) {
       const double step = 0.01 / (1 << halved);
       Simulator s = made(double_pendulum(law.first, law.second),
                          R"("state": {"j1": 1.2, "j2": 0.8}, "dynamics": {)" + law.dynamics + "}",
-                         R"("step": )" + text_of(step));
+                         R"("step": )" + number_text(step));
       const auto count = static_cast<std::size_t>(std::round(law.duration / step));
       const RunRobot last = test::run(s, count).back().robots[0];
       errors.push_back(
@@ -227,7 +227,7 @@ TEST_F(RobotLaws, SpringsWithoutDampersKeepTheirEnergy) {
   const std::string springs = R"("base": "fixed",
       "motors": {"*": {"position": 0, "stiffness": 100, "damping": 0}})";
   Simulator one = made(sliders(1), R"("state": {"s1": 0.1}, "dynamics": {)" + springs + "}",
-                       R"("gravity": [0, 0, 0], "step": )" + text_of(step));
+                       R"("gravity": [0, 0, 0], "step": )" + number_text(step));
   double farthest = 0.0;
   for (const RunStep& at : test::run(one, 2000)) {
     ASSERT_NEAR(energy_with_springs(at, 100.0), 0.5, 0.5e-9) << at.index;
@@ -236,7 +236,7 @@ TEST_F(RobotLaws, SpringsWithoutDampersKeepTheirEnergy) {
   EXPECT_NEAR(farthest, 0.1, 0.1 * 0.02);
   Simulator three =
       made(sliders(3), R"("state": {"s1": 0.1, "s3": -0.05}, "dynamics": {)" + springs + "}",
-           R"("gravity": [0, 0, 0], "step": )" + text_of(0.5 * step));
+           R"("gravity": [0, 0, 0], "step": )" + number_text(0.5 * step));
   const double energy = 0.5 * 100.0 * (0.01 + 0.0025);
   for (const RunStep& at : test::run(three, 2000)) {
     ASSERT_NEAR(energy_with_springs(at, 100.0), energy, 1e-9 * energy) << at.index;
@@ -251,8 +251,8 @@ TEST_F(RobotLaws, SpringsOfAnArmKeepTheirEnergy) {
     Simulator s = made(double_pendulum("", ""),
                        R"("state": {"j1": 0.3, "j2": -0.4}, "dynamics": {"base": "fixed", "motors":
                            {"*": {"position": 0, "stiffness": )" +
-                           text_of(stiffness) + "}}}",
-                       R"("step": )" + text_of(step));
+                           number_text(stiffness) + "}}}",
+                       R"("step": )" + number_text(step));
     const double rest =
         -kPull * (kM1 * kC1 + kM2 * (kLength + kC2));  // [J]  Of the arm that hangs.
     const double begin =
@@ -279,12 +279,13 @@ TEST_F(RobotLaws, StiffSpringsAreStable) {
   for (const double stiffness : {1e3, 1e5, 1e7, 1e9}) {
     for (const double damping : {0.0, 10.0, 1e4}) {
       for (const double step : {0.02, 0.005, 0.001}) {
-        Simulator s = made(double_pendulum("", ""),
-                           R"("state": {"j1": 0.3, "j2": -0.4}, "dynamics": {"base": "fixed",
+        Simulator s =
+            made(double_pendulum("", ""),
+                 R"("state": {"j1": 0.3, "j2": -0.4}, "dynamics": {"base": "fixed",
                              "velocities": {"j1": 2}, "motors": {"*": {"position": 0.1,
                              "stiffness": )" +
-                               text_of(stiffness) + R"(, "damping": )" + text_of(damping) + "}}}",
-                           R"("step": )" + text_of(step));
+                     number_text(stiffness) + R"(, "damping": )" + number_text(damping) + "}}}",
+                 R"("step": )" + number_text(step));
         const double allowed = 0.5 * stiffness * (0.04 + 0.25) + 20.0;
         for (const RunStep& at : test::run(s, 300)) {
           double energy = at.kinetic_energy;
@@ -306,7 +307,7 @@ TEST_F(RobotLaws, DampersDecayExactly) {
         "<link name=\"base\"/>" + massive("sled", 1.0, "0 0 0", {0.01, 0.01, 0.01}) +
         connected("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
                   R"(<limit lower="-9" upper="9" effort="0" velocity="0"/><dynamics damping=")" +
-                      text_of(damping) + "\"/>");
+                      number_text(damping) + "\"/>");
     Simulator s = made(urdf, R"("dynamics": {"base": "fixed", "velocities": {"rail": 3}})",
                        R"("gravity": [0, 0, 0], "step": 0.01)");
     for (const RunStep& at : test::run(s, 20)) {
@@ -393,7 +394,7 @@ TEST_F(RobotLaws, KeepTheEnergyOfHeldRobotsThatTumble) {
   for (const double step : {0.01, 0.005, 0.0025}) {
     Simulator s = made(torso(true), R"("dynamics": {"base": "free",
         "motors": {"*": {"position": 0}}, "angular_velocity": [1, 2, 3]})",
-                       R"("gravity": [0, 0, 0], "step": )" + text_of(step));
+                       R"("gravity": [0, 0, 0], "step": )" + number_text(step));
     const auto steps = test::run(s, static_cast<std::size_t>(std::round(4.0 / step)));
     // Moments of the torso, and of arms that stretch along y from 0.1 m above its centre.
     const double along = 2.0 * (0.002 + 0.001 + 1.6 * 0.01);
@@ -445,9 +446,9 @@ TEST_F(RobotLaws, KeepMomentaWhereFrictionHoldsARobotAgainstItself) {
         "linear_velocity": [0.1, 0.2, 0.3], "motors": {"l1": {"torque": 0.2},
         "r1": {"torque": -0.1},
         "l2": {"torque": [[0, 0.1], [1, -0.1], [2, 0.1], [10, -0.1]]}}})",
-                       R"("gravity": [0, 0, 0], "step": )" + text_of(step));
+                       R"("gravity": [0, 0, 0], "step": )" + number_text(step));
     const auto steps = test::run(s, static_cast<std::size_t>(std::round(3.0 / step)));
-    expect_same_momenta(steps, steps[0].linear_momentum, text_of(step));
+    expect_same_momenta(steps, steps[0].linear_momentum, number_text(step));
     EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
   }
 }

@@ -40,6 +40,14 @@ inline std::string ball(const std::string& radius) {
 /// Its top is at z = 0.
 inline const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
 
+/// A number that reads back bit for bit.
+inline std::string number_text(double number) {
+  std::ostringstream out;
+  out.precision(17);
+  out << number;
+  return out.str();
+}
+
 /// A row of numbers as scenes have it.
 inline std::string numbers(const std::vector<double>& values) {
   std::ostringstream out;

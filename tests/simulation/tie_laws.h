@@ -6,21 +6,15 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "simulation/simulated_run.h"
+
 #include <firstcontact/record/run_step.h>
 
 namespace firstcontact::test {
-
-inline std::string number_text(double number) {
-  std::ostringstream out;
-  out.precision(17);
-  out << number;
-  return out.str();
-}
 
 /// Keys of a simulation.
 inline std::string tie_settings(double step, const std::string& ties, bool has_gravity = true) {

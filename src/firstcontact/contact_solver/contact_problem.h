@@ -167,10 +167,10 @@ struct ContactSolution {
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
 /// whose minimum gives the next r (method of multipliers). There is one equation for each degree of
 /// freedom, however many contacts there are, and no loss where masses differ greatly. Where it
-/// converges slowly |u_t| is an unknown, too, and sweeps lead to other places to begin at (Alart,
-/// Curnier, "A mixed formulation for frictional contact problems prone to Newton like solution
-/// methods", Computer Methods in Applied Mechanics and Engineering 92 (1991)). It ends early where
-/// the impulses show that no velocities keep all contacts open (Farkas' lemma).
+/// converges slowly |u_t| is an unknown, too (Alart, Curnier, "A mixed formulation for frictional
+/// contact problems prone to Newton like solution methods", Computer Methods in Applied Mechanics
+/// and Engineering 92 (1991)). Sweeps lead to other places to begin at. It ends early where the
+/// impulses show that no velocities keep all contacts open (Farkas' lemma).
 ///
 /// Choice: from 120 contacts on (300 where there are two for each velocity), without drives and
 /// ties, an interior point comes before the augmented Lagrangian, in rounds. Each round solves the

@@ -16,6 +16,7 @@
 #include <firstcontact/simulation/detail/advance_step.h>
 #include <firstcontact/simulation/detail/island_threads.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
+#include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/meeting.h>
 #include <firstcontact/simulation_model/detail/script.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>

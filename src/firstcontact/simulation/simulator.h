@@ -30,8 +30,8 @@ struct LoadedScene;
 /// on one kind of processor.
 ///
 /// Motion between contacts is exact in free flight under constant forces (but for turning, which is
-/// of second order in the step). In contact it is of second order, too, but where a contact begins,
-/// ends or sticks within a step.
+/// of second order in the step). In contact it is of second order, too. It is of first order where
+/// a contact begins, ends or sticks within a step, or motors hold a robot nearly still.
 ///
 /// Method: free velocities, Gauss' principle at the contacts, first contact over all pairs,
 /// everything placed there, the impact projected, and on with the rest of the step. Bodies that

@@ -12,6 +12,9 @@
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
+
+using Eigen::Vector3d;
+
 namespace {
 
 ContactPoint moved(const ContactPoint& contact, const MovedContact& to) {

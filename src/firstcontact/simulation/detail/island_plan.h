@@ -134,7 +134,7 @@ class IslandPlanner {
   [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
-  void fly_all();
+  void make_flights();
   void set_robots();
   [[nodiscard]] std::vector<Eigen::VectorXd> loads_on_robots();
   void fly_bodies();

@@ -79,12 +79,12 @@ bool IslandPlanner::is_link_body(std::size_t place) const {
 }
 
 void IslandPlanner::fly_robots() {
-  fly_all();
+  make_flights();
   set_robots();
 }
 
 /// Makes the flights of robots that are not known or have loads.
-void IslandPlanner::fly_all() {
+void IslandPlanner::make_flights() {
   end_loads_by_rule();
   const std::vector<Eigen::VectorXd> loads = loads_on_robots();
   if (!loads.empty()) {
@@ -195,7 +195,7 @@ bool IslandPlanner::follow_loads() {
       before ? before->energy
              : kinetic_energy(problem_.mechanisms, velocities_of(problem_.mechanisms));
   loads_ = LoadsOfContacts{std::move(impulses), std::move(acts), energy, {}};
-  fly_all();
+  make_flights();
   if (!loads_change_much()) {
     flights_ = std::move(flights);
     loads_ = before;
