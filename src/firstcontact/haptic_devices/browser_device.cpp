@@ -156,18 +156,19 @@ struct BrowserDevice::Data {
     report.set_problem("the page has not moved the tool yet");
   }
 
+  // Who sees a count finds what it counts, and who sees a state its reason: those are told first.
   void take(const std::string& text) {
     try {
       take_handle(text, state);
       state.status = DeviceStatus::live;
       state.time_ns = steady_now_ns();
       ++state.sequence;
-      ++report.samples;
       report.set_problem({});
       states.put(state);
+      ++report.samples;
     } catch (const ParseError& error) {
-      ++report.malformed;
       report.set_problem(error.what());
+      ++report.malformed;
     }
   }
 

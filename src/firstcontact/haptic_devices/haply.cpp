@@ -228,6 +228,7 @@ struct Haply::Data {
     }
   }
 
+  // Who sees a count finds what it counts, and who sees a state its reason: those are told first.
   void take_state(const detail::HaplyMessage& message) {
     note_generation(message);
     if (message.device_id.empty() || !message.ready) {
@@ -235,6 +236,7 @@ struct Haply::Data {
       set_problem(message.device_id.empty()
                       ? "the service no longer lists the device " + choice.device_id
                       : "the service reports that the device is not ready");
+      states.put(state);
     } else if (message.position) {
       state.X_DH.position = *message.position - options.centre;
       if (message.orientation && capabilities.sensed.angular[0]) {
@@ -244,14 +246,14 @@ struct Haply::Data {
       state.buttons = capabilities.buttons > 0 ? message.buttons : 0;
       state.time_ns = steady_now_ns();
       ++state.sequence;
-      ++report.samples;
-      report.malformed += message.grip_problem.empty() ? 0 : 1;
       state.status = DeviceStatus::live;
       set_problem(message.grip_problem);
+      states.put(state);
+      ++report.samples;
+      report.malformed += message.grip_problem.empty() ? 0 : 1;
     } else {
       ++report.malformed;
     }
-    states.put(state);
   }
 
   /// The newest command, if it is of this connection and young enough; else zero.
@@ -324,8 +326,8 @@ struct Haply::Data {
       take_state(detail::parse_haply_message(text, choice));
       return true;
     } catch (const ParseError& error) {
-      ++report.malformed;
       set_problem(error.what());
+      ++report.malformed;
       return false;
     }
   }
