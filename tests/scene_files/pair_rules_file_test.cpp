@@ -99,9 +99,29 @@ TEST(PairRulesFile, NamesRobotsAndLinksWhereThereAreSome) {
             R"("r/tip"?)");
   EXPECT_EQ(said(R"("groups": {"g": []}, "ignore": [["a", "no such name"]])"),
             R"(expected the name of a body, robot or group, or robot/link, got "no such name")");
+  EXPECT_EQ(said(R"("groups": {"g": ["r/tipp"]})"),
+            R"(expected the name of a body or robot, or robot/link, got "r/tipp"; did you mean )"
+            R"("r/tip"?)");
+  EXPECT_EQ(said(R"("groups": {"r/tip": ["a"]})"),
+            "expected for the group a name that no body, robot or link has");
   // A robot with itself: all pairs of its links.
   EXPECT_EQ(read(R"("ignore": [["r", "r"]])").ignored_pairs,
             (std::vector<BodyPair>{{1, 2}, {1, 3}, {2, 3}}));
+}
+
+TEST(PairRulesFile, RefusesABodyThatIsCalledAsALink) {
+  const test::ArmFolder folder;
+  const auto read = [&](const std::string& name) {
+    return parse_scene(R"({"firstcontact": 1, "bodies": [)" + body(name) +
+                           R"(], "robots": [{"name": "r", "urdf": "arm.urdf"}]})",
+                       folder.path() / "s.json");
+  };
+  const std::string said = test::message_of<ParseError>([&] { (void)read("r/tip"); });
+  EXPECT_NE(said.find(R"(robots[0].name: expected a name by which no link is called as a body or )"
+                      R"(another robot, but "r/tip" is there already; rename one of them)"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(read("r/top").bodies.size(), 1u);
 }
 
 }  // namespace

@@ -31,13 +31,15 @@ class PairsReader {
       BodyGroup group{name, {}};
       for (const JsonValue& member : read_.array(members, "an array of names of bodies")) {
         const std::vector<std::size_t> meant =
-            members_of(scene_, named(member, "the name of a body"));
+            members_of(scene_, named(member, what_is_in_a_group()));
         group.bodies.insert(group.bodies.end(), meant.begin(), meant.end());
       }
       scene_.groups.push_back(std::move(group));
       const Named entry{Named::Kind::group, scene_.groups.size() - 1};
       if (name.empty() || !names.insert({name, entry}).second) {
-        read_.fail(members, "expected for the group a name that no body has");
+        read_.fail(members, scene_.robots.empty()
+                                ? "expected for the group a name that no body has"
+                                : "expected for the group a name that no body, robot or link has");
       }
     }
     names_ = std::move(names);
@@ -107,6 +109,11 @@ class PairsReader {
       return found->second;
     }
     read_.fail(value, "expected " + what + ", got " + in_quotes(name) + hint(names_, name));
+  }
+
+  [[nodiscard]] std::string what_is_in_a_group() const {
+    return scene_.robots.empty() ? "the name of a body"
+                                 : "the name of a body or robot, or robot/link";
   }
 
   [[nodiscard]] std::string what_is_named() const {

@@ -328,6 +328,19 @@ bool is_taken(const Scene& scene, const std::string& name) {
          std::any_of(scene.robots.begin(), scene.robots.end(), has_name);
 }
 
+/// Links are called robot/link, as a body or another robot may be.
+void require_new_links(const SceneRobot& robot, const Scene& scene, const JsonValue& name,
+                       const JsonReader& read) {
+  for (const Link& link : robot.model.links()) {
+    const std::string whole = robot.name + "/" + link.name;
+    if (is_taken(scene, whole)) {
+      read.fail(name,
+                "expected a name by which no link is called as a body or another robot, but " +
+                    in_quotes(whole) + " is there already; rename one of them");
+    }
+  }
+}
+
 }  // namespace
 
 void read_robots(const JsonValue& value, const SceneFolders& folders, Scene& scene,
@@ -339,6 +352,7 @@ void read_robots(const JsonValue& value, const SceneFolders& folders, Scene& sce
       read.fail_expected("a name that no body and no other robot has",
                          read.member(element, "name"));
     }
+    require_new_links(robot, scene, read.member(element, "name"), read);
     scene.robots.push_back(std::move(robot));
   }
 }
