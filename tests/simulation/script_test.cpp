@@ -76,6 +76,41 @@ TEST(Script, PartsOfAStepAreOneStep) {
   EXPECT_NEAR(steps[2].impacts[0].at, 0.002 + 0.003 * 0.05 / 0.2, 1e-5);
 }
 
+/// [N s]  What a step's contacts push body 1 up with.
+double lift(const RunStep& step) {
+  double sum = 0.0;
+  for (const RunContact& contact : step.contacts) {
+    sum += contact.bodies[0] == 1   ? -contact.impulse.z()
+           : contact.bodies[1] == 1 ? contact.impulse.z()
+                                    : 0.0;
+  }
+  return sum;
+}
+
+// A step of several parts lasts no longer than another one: what rests bears its weight once.
+TEST(Script, WhatRestsBearsItsWeightInStepsOfManyParts) {
+  const std::string fan = R"({"name": "fan", "shape": {"box": {"size": [0.4, 0.1, 0.1]}}, "motion":
+      {"type": "screw", "from": {"position": [0, 5, 1]}, "axis_direction": [0, 0, 1],
+       "angle": 62.8}})";
+  const std::string bodies =
+      test::kFloor + ", " +
+      body("cube", box("[0.1, 0.1, 0.1]"), "[0, 0, 0.0501]", R"(, "dynamics": {"mass": 2})") +
+      ", " + fan + ", " + kBlow;
+  const std::string settings =
+      R"("step": 0.01, "duration": 1, "gravity": [0, 0, -9.81], "contact_distance": 1e-4)";
+  Simulator simulator = test::simulator(bodies, settings);
+  const std::vector<RunStep> steps = test::run(simulator, 60);
+  const double weight = 2.0 * 9.81 * 0.01;
+  for (std::size_t k = 20; k < steps.size(); ++k) {
+    EXPECT_NEAR(lift(steps[k]), weight, 1e-6 * weight) << k;
+  }
+  Simulator resumed = test::simulator(bodies, settings);
+  resumed.resume(steps[39]);
+  for (std::size_t k = 40; k < steps.size(); ++k) {
+    EXPECT_EQ(lift(resumed.step().value()), lift(steps[k])) << k;
+  }
+}
+
 TEST(Script, RunThatIsResumedGoesOnAlike) {
   const std::string bodies =
       kBlow + ", " + body("ball", ball("0.05"), "[0, 0, 0.85]", R"(, "dynamics": {"mass": 1})");

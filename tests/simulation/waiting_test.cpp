@@ -78,6 +78,24 @@ TEST(Waiting, APressWaitsAndOpensWhenItsScriptDoes) {
   EXPECT_NEAR(proof.greatest_behind, 0.5, 0.04);
 }
 
+// Steps are taken in two parts, of which the cube rests in both.
+TEST(Waiting, WhatRestsInAPressBearsNoMoreThanItDid) {
+  const std::string plate = R"({"name": "plate", "shape": {"box": {"size": [0.3, 0.3, 0.1]}},
+      "motion": {"type": "waypoints", "times": [0, 1, 2], "poses": [{"position": [0, 0, 0.45]},
+      {"position": [0, 0, 0.15]}, {"position": [0, 0, 0.45]}]}})";
+  Simulator s = test::simulator(
+      kFloor + ", " +
+          body("cube", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.1001]", R"(, "dynamics": {"mass": 8})") +
+          ", " + plate,
+      R"("duration": 2, "jams": "wait", )" + test::settings(0.01, 0.5, kApart));
+  const std::vector<RunStep> steps = run(s, 200);
+  for (std::size_t k = 50; k < steps.size(); ++k) {
+    for (const RunContact& contact : steps[k].contacts) {
+      EXPECT_LE(contact.impulse.norm(), 2.0 * 8.0 * 9.81 * 0.01) << k;
+    }
+  }
+}
+
 // The script turns back within the step in which the jaws stop, or in one of the next.
 TEST(Waiting, APressThatClosesALittleTooFarOpens) {
   for (const double too_deep : {1e-4, 3e-4, 1e-3, 2e-3, 5e-3}) {

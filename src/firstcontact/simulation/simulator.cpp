@@ -260,6 +260,7 @@ class Simulator::Implementation {
       state_.behind[body.body] = body.behind;
     }
     state_.contacts = step.contacts;
+    state_.contacts_lasted = step.lasted;
     state_.ties = step.ties;
   }
 

@@ -80,6 +80,7 @@ class StepAdvance {
   std::optional<RunStep> finished() {
     state_.count = whole_->index;
     state_.contacts = whole_->contacts;
+    state_.contacts_lasted = whole_->lasted;
     state_.ties = whole_->ties;
     state_.is_stuck = is_lost(*whole_);
     return std::move(whole_);
@@ -97,7 +98,7 @@ class StepAdvance {
       start.waits = waits_;
       start.scripted = script_.moves(state_.states, state_.time, start.h, state_.behind, waits_);
       std::optional<std::vector<IslandTrack>> tracks =
-          advance_islands(model_, start, guesses(), threads_, stop_);
+          advance_islands(model_, start, guesses(start.h), threads_, stop_);
       if (!tracks) {
         return std::nullopt;
       }
@@ -139,7 +140,10 @@ class StepAdvance {
   }
 
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
-  [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
+  ///
+  /// @param h  [s]  for which their impulses shall act
+  [[nodiscard]] std::vector<ManifoldPoint> guesses(double h) const {
+    const double share = state_.contacts_lasted > 0.0 ? h / state_.contacts_lasted : 1.0;
     std::vector<ManifoldPoint> touches;
     touches.reserve(state_.contacts.size());
     for (const RunContact& contact : state_.contacts) {
@@ -148,7 +152,7 @@ class StepAdvance {
                          .feature_B = contact.feature_B,
                          .point = contact.point,
                          .normal = contact.normal,
-                         .impulse = contact.impulse});
+                         .impulse = share * contact.impulse});
     }
     return touches;
   }

@@ -80,6 +80,7 @@ class StepRecorder {
     add_contacts(tracks, step);
     add_ties(tracks, step);
     state_.contacts = step.contacts;
+    state_.contacts_lasted = lasted_;
     state_.ties = step.ties;
     state_.time = step.time;
     state_.count = step.index;
@@ -139,8 +140,11 @@ class StepRecorder {
     return size;
   }
 
-  /// Those of bodies that stay at rest are those of the step before.
+  /// Those of bodies that stay at rest bear what they bore in the step before, or in the part of a
+  /// step before, for as long as this one lasts.
   void add_contacts(const std::vector<IslandTrack>& tracks, RunStep& step) const {
+    const double before = state_.contacts_lasted;
+    const double of_rest = before > 0.0 && lasted_ > 0.0 ? lasted_ / before : 1.0;
     std::vector<bool> stays(state_.states.size(), false);
     std::vector<ManifoldPoint> touches;
     for (const IslandTrack& track : tracks) {
@@ -154,6 +158,7 @@ class StepRecorder {
     for (const RunContact& contact : state_.contacts) {
       if (stays[contact.bodies[0]] || stays[contact.bodies[1]]) {
         step.contacts.push_back(contact);
+        step.contacts.back().impulse *= of_rest;
       }
     }
     for (const ManifoldPoint& touch : touches) {

@@ -19,6 +19,7 @@ struct SimulationState {
   std::vector<bool> rests = {};           ///< Of each body: found at rest in the last step.
   std::vector<double> behind = {};        ///< [s]  Of each body: so much its script is.
   std::vector<RunContact> contacts = {};  ///< Of the last step, sorted.
+  double contacts_lasted = 0.0;           ///< [s]  For which they acted.
   std::vector<RunTie> ties = {};          ///< Of the last step.
   double time = 0.0;                      ///< [s]
   bool is_stuck = false;                  ///< The last step was lost, or nearly all of it.
