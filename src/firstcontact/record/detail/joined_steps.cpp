@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/record/detail/earlier_impulses.h>
+
 namespace firstcontact::detail {
 
 namespace {
@@ -18,19 +20,6 @@ std::vector<RunPiece> joined_pieces(std::vector<RunPiece> first, std::vector<Run
   }
   std::ranges::move(second, std::back_inserter(first));
   return first;
-}
-
-/// Adds the impulses of contacts that acted at the end of the first part, too.
-void add_impulses(const std::vector<RunContact>& first, std::vector<RunContact>& second) {
-  for (RunContact& contact : second) {
-    const auto before = std::ranges::find_if(first, [&](const RunContact& other) {
-      return other.bodies == contact.bodies && other.feature_A == contact.feature_A &&
-             other.feature_B == contact.feature_B;
-    });
-    if (before != first.end()) {
-      contact.impulse += before->impulse;
-    }
-  }
 }
 
 }  // namespace
@@ -51,9 +40,12 @@ RunStep joined(RunStep first, RunStep second) {
     std::ranges::transform(first.robots[r].efforts, whole.robots[r].efforts,
                            whole.robots[r].efforts.begin(), mean);
   }
-  add_impulses(first.contacts, whole.contacts);
   for (RunImpact& impact : whole.impacts) {
     impact.at += first.lasted;
+  }
+  add_earlier_impulses(first.contacts, whole.contacts);
+  for (const RunContact& parted : first.contacts) {
+    first.impacts.push_back({first.lasted, parted.bodies, parted.point, parted.impulse});
   }
   whole.impacts.insert(whole.impacts.begin(), first.impacts.begin(), first.impacts.end());
   for (std::size_t k = 0; k < whole.ties.size(); ++k) {

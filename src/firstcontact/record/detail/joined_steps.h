@@ -11,7 +11,8 @@ namespace firstcontact::detail {
 /// number.
 ///
 /// Pieces, impacts and events of both; states and contacts at the end of the second. Impulses of
-/// contacts are summed, forces of motors and ties are means over both.
+/// contacts are summed; those of pairs that parted are impacts. Forces of motors and ties are means
+/// over both.
 [[nodiscard]] RunStep joined(RunStep first, RunStep second);
 
 }  // namespace firstcontact::detail

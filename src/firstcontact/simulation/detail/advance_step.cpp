@@ -92,7 +92,8 @@ class StepAdvance {
                     .states = state_.states,
                     .robots = state_.robots,
                     .rests = state_.rests,
-                    .waited = waited(part.is_rest)};
+                    .waited = waited(part.is_rest),
+                    .begins_step = !whole_};
     for (;;) {
       start.h = part.length;
       start.waits = waits_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/record/detail/earlier_impulses.h>
 #include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
@@ -18,36 +19,6 @@
 
 namespace firstcontact::detail {
 namespace {
-
-/// The contacts of a plan with their impulses, and with those that the plans of the step before it
-/// had at the same features, or else nearest to them on the same pair. Pairs that parted are left
-/// out.
-std::vector<ManifoldPoint> joined(const std::vector<ManifoldPoint>& before,
-                                  std::vector<ManifoldPoint> touches) {
-  std::multimap<BodyPair, ManifoldPoint*> of_pair;
-  for (ManifoldPoint& touch : touches) {
-    of_pair.emplace(touch.bodies, &touch);
-  }
-  for (const ManifoldPoint& earlier : before) {
-    if (earlier.impulse.isZero(0.0)) {
-      continue;
-    }
-    ManifoldPoint* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    const auto [first, end] = of_pair.equal_range(earlier.bodies);
-    for (auto found = first; found != end; ++found) {
-      ManifoldPoint& touch = *found->second;
-      const double apart =
-          same_features(touch, earlier) ? 0.0 : (touch.point - earlier.point).norm();
-      nearest = apart < least ? &touch : nearest;
-      least = std::min(least, apart);
-    }
-    if (nearest != nullptr) {
-      nearest->impulse += earlier.impulse;
-    }
-  }
-  return touches;
-}
 
 class Island {
  public:
@@ -345,7 +316,7 @@ class Island {
         track_.ties.push_back({tie.tie, state_.reached, to, t * tie.linear, t * tie.angular});
       }
     }
-    state_.reached = to;
+    const double before = std::exchange(state_.reached, to);
     track_.residual = std::max(track_.residual, plan.residual);
     track_.clearance = std::min(track_.clearance, clearance);
     state_.poses_around.clear();
@@ -360,7 +331,19 @@ class Island {
     for (ManifoldPoint& touch : touches) {
       touch.impulse *= t;
     }
-    track_.touches = joined(track_.touches, std::move(touches));
+    take(std::move(touches), before);
+  }
+
+  /// Makes the touches of a plan those of the step, with what acted before. What acted on pairs
+  /// that parted is an impact.
+  ///
+  /// @param before  [s]  when the plan began
+  void take(std::vector<ManifoldPoint> touches, double before) {
+    add_earlier_impulses(track_.touches, touches);
+    for (const ManifoldPoint& parted : track_.touches) {
+      track_.impacts.push_back({before, parted.bodies, parted.point, parted.impulse});
+    }
+    track_.touches = std::move(touches);
   }
 
   /// What is left of the velocities at the end of the step is no motion.

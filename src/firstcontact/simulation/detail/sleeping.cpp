@@ -70,8 +70,9 @@ bool falls_asleep(const IslandState& state, const Plan& plan,
   const double seeming = (state.ties.empty() ? 1.0 : kRestOfTied) *
                          std::min(kRestOfExactTolerance * exact_tolerance(state),
                                   kRestOfGravity * state.model.gravity.norm() * state.start.h);
-  if (is_pulled(state.model, state.start, state.members) || !state.robots.empty() ||
-      state.is_too_near() || !(plan.residual <= seeming)) {
+  // What rests bears in all steps what it bears in this one, which has to be its weight alone.
+  if (!state.start.begins_step || is_pulled(state.model, state.start, state.members) ||
+      !state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
   }
   for (std::size_t k = 0; k < state.size(); ++k) {

@@ -25,6 +25,7 @@ struct StepStart {
   std::vector<bool> rests = {};   ///< Of every body: found at rest in the step before.
   std::vector<bool> waits = {};   ///< Of every body: its script stands still over the step.
   std::vector<bool> waited = {};  ///< Likewise, in the step before.
+  bool begins_step = true;        ///< Or it is a later part of a step in which scripts bend.
 };
 
 /// Where a scripted or fixed body is, a share of the step after its begin.
