@@ -51,10 +51,28 @@ TEST(JoinedSteps, SumAndAverageBothParts) {
   EXPECT_EQ(whole.robots[0].efforts[0], 5.0);
   EXPECT_EQ(whole.ties[0].force.x(), 5.0);
   EXPECT_EQ(whole.ties[0].torque.y(), 5.0);
-  // A contact that acted in both has the impulse of both.
+}
+
+TEST(JoinedSteps, HaveTheImpulsesOfBothParts) {
+  RunStep first = part(7, 0.25, 2.0);
+  RunStep second = part(8, 0.75, 6.0);
+  first.contacts = {contact(3, 2.0), contact(4, 1.0), contact(5, 0.5), contact(6, 0.0)};
+  first.contacts[0].point.x() = 1.0;  // It moved on, but its features are the same.
+  first.contacts[1].point.x() = 0.9;  // At other features: the nearest has its impulse.
+  first.contacts[2].bodies = {0, 2};  // This pair parted,
+  first.contacts[2].point.y() = 3.0;
+  first.contacts[3].bodies = {0, 3};  // as this one, that did not press.
+  second.contacts = {contact(7, 6.0), contact(3, 8.0)};
+  second.contacts[0].point.x() = 1.0;
+  const RunStep whole = detail::joined(first, second);
   ASSERT_EQ(whole.contacts.size(), 2);
-  EXPECT_EQ(whole.contacts[0].impulse.z(), 8.0);
-  EXPECT_EQ(whole.contacts[1].impulse.z(), 6.0);
+  EXPECT_EQ(whole.contacts[0].impulse.z(), 6.0 + 1.0);
+  EXPECT_EQ(whole.contacts[1].impulse.z(), 8.0 + 2.0);
+  ASSERT_EQ(whole.impacts.size(), 3);
+  EXPECT_EQ(whole.impacts[1].at, 0.25);
+  EXPECT_EQ(whole.impacts[1].bodies, (BodyPair{0, 2}));
+  EXPECT_EQ(whole.impacts[1].point.y(), 3.0);
+  EXPECT_EQ(whole.impacts[1].impulse.z(), 0.5);
 }
 
 TEST(JoinedSteps, OfWhichTheSecondLastedNoTimeAreTheFirst) {

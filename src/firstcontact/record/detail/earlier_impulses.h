@@ -30,7 +30,7 @@ void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& c
       Contact& contact = *found->second;
       const bool is_same =
           contact.feature_A == before.feature_A && contact.feature_B == before.feature_B;
-      const double apart = is_same ? 0.0 : (contact.point - before.point).norm();
+      const double apart = is_same ? -1.0 : (contact.point - before.point).norm();
       nearest = apart < least ? &contact : nearest;
       least = std::min(least, apart);
     }
