@@ -8,6 +8,8 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 
+#include "support/rounds.h"
+
 namespace firstcontact {
 namespace {
 
@@ -156,11 +158,12 @@ class SolvedHeap {
 // Without sliding speeds as unknowns, and turns with sweeps, it is 178.
 TEST(AugmentedLagrangian, MeetsThreeQuartersOfHardLaws) {
   std::mt19937 rng(1);
+  constexpr int kHeaps = test::rounds(300, 60);
   int solved = 0;
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < kHeaps; ++k) {
     solved += by_multipliers(SolvedHeap(rng).problem()).residual <= kOfLaws ? 1 : 0;
   }
-  EXPECT_GE(solved, 225);
+  EXPECT_GE(4 * solved, 3 * kHeaps);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/geometry/screw_sliding_order.h>
 
+#include "support/rounds.h"
 #include "support/thread_mesh.h"
 
 namespace firstcontact {
@@ -153,7 +154,7 @@ TEST(ScrewSlidingBounds, HoldAllPointsOfTrianglesBetweenTwoPoses) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] { return Vector3d(uniform(rng), uniform(rng), uniform(rng)); };
   ScrewSlidingBounds bounds;
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < test::rounds(20, 5); ++round) {
     ScrewSlidingPath path;
     const Vector3d p_SB = -(screw_sliding->R_SB * screw_sliding->p_BS);
     for (std::size_t pose = 0; pose < 2; ++pose) {

@@ -16,6 +16,8 @@
 #include <firstcontact/haptics/detail/cone_projection.h>
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 
+#include "support/rounds.h"
+
 namespace firstcontact::detail {
 namespace {
 
@@ -102,7 +104,7 @@ Vector6d by_enumeration(const std::vector<HapticContact>& contacts, const Vector
 
 TEST(ConeProjection, WithoutFrictionIsTheNearestOfAllActiveSets) {
   std::mt19937 rng(7);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::rounds(300, 60); ++i) {
     const auto contacts = random_contacts(rng, 1 + i % 8, 0.0);
     ConeProjection cone = projection_of(contacts);
     const Coordinates free = random_displacement(rng);

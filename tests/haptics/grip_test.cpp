@@ -20,6 +20,7 @@
 #include "haptics/grip_scenes.h"
 #include "haptics/haptic_scenes.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -206,7 +207,7 @@ TEST(Grip, ClosesWhileTheWristIsPushedIntoAWall) {
   scene.bodies.push_back(body_at("floor", make_box({0.5, 0.5, 0.1}), {0.0, 0.0, -0.13}, 0.3));
   GripSession session(std::move(scene));
   double greatest = 0.0;
-  for (int k = 0; k < 4000; ++k) {
+  for (int k = 0; k < test::rounds(4000, 1600); ++k) {  // A time of the fingers takes 1,571.
     const double down = -0.02 * std::min(1.0, 1e-3 * k);
     const ForceTick& tick = session.step({0.0, 0.0, down}, 0.5 - 0.5 * std::cos(4e-3 * k));
     greatest = std::max(greatest, tick.tools[0].force_W.z());
@@ -288,7 +289,8 @@ TEST(Grip, LinksStayOnTheirJointsAndApart) {
   std::array<double, 3> to{};
   Vector3d at = Vector3d::Zero();
   std::size_t touched = 0;
-  for (int k = 0; k < 6000; ++k) {
+  constexpr int kTicks = test::rounds(6000, 1200);
+  for (int k = 0; k < kTicks; ++k) {
     if (k % 300 == 0) {
       from = to;
       for (double& value : to) {
@@ -315,7 +317,7 @@ TEST(Grip, LinksStayOnTheirJointsAndApart) {
     ASSERT_GT(session.gap(0, 5), 0.0) << k;
     ASSERT_GT(session.gap(2, 4), 0.0) << k;
   }
-  EXPECT_GT(touched, 1000U);
+  EXPECT_GT(touched, std::size_t{kTicks / 6});
   EXPECT_GT(session.least_clearance(), 0.0);
 }
 

@@ -11,6 +11,7 @@
 
 #include "support/convex_distance.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -54,7 +55,7 @@ struct Polytope {
 
 TEST(ConvexSeparation, GapIsThatOfThePointsAndNearlyTheDistance) {
   int apart = 0;
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(2000, 400); ++seed) {
     Random random(seed);
     const Polytope A(random, Vector3d::Zero());
     const Polytope B(random, random.vector(0.0, seed % 2 == 0 ? 2.0 : 5.0));

@@ -18,6 +18,7 @@
 #include "support/closest_points.h"
 #include "support/instruction_sets.h"
 #include "support/rational.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -184,7 +185,7 @@ void for_each_pair(int count, const Judge& judge) {
   }
 }
 
-constexpr int kPairs = 300;
+constexpr int kPairs = test::rounds(300, 60);
 
 using TriangleDistanceOn = test::OnInstructionSet;
 using FeaturePairsWithinOn = test::OnInstructionSet;
@@ -229,7 +230,7 @@ TEST_P(TriangleDistanceOn, NamesTheFeaturesThatHoldTheClosestPoints) {
   }
   // Vertex and vertex, edge, face; edge and edge. A face meets nothing else without piercing.
   for (const std::size_t pair : {0u, 1u, 2u, 3u}) {
-    EXPECT_GE(met[pair], 50) << pair;
+    EXPECT_GE(met[pair], kPairs / 6) << pair;
   }
 }
 
@@ -349,7 +350,7 @@ TEST_P(TriangleDistanceOn, NamesTheCornerThatTouchesAFace) {
 TEST_P(TriangleDistanceOn, ClaimsNoPiercingOfNeedlesThatAreApart) {
   Random random;
   int claimed = 0;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::rounds(200'000, 20'000); ++i) {
     const double thin = std::pow(10.0, random.uniform(-12.0, -9.0));
     const Vector3d a = random.vector();
     const Vector3d b = random.vector();
@@ -367,7 +368,7 @@ TEST_P(TriangleDistanceOn, ClaimsNoPiercingOfNeedlesThatAreApart) {
 
 TEST_P(FeaturePairsWithinOn, HoldsOnlyPointsOnTheTrianglesWhateverTheBand) {
   for (const double band : {1e200, std::numeric_limits<double>::infinity()}) {
-    for_each_pair(20, [&](const Kind&, const Triangle& A, const Triangle& B) {
+    for_each_pair(test::rounds(20, 4), [&](const Kind&, const Triangle& A, const Triangle& B) {
       const FeaturePairs all = feature_pairs_within(A, B, band);
       EXPECT_GE(all.count, 1u);
       for (std::size_t k = 0; k < all.count; ++k) {

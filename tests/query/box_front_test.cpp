@@ -18,6 +18,7 @@
 #include <firstcontact/query/distance.h>
 
 #include "support/random.h"
+#include "support/rounds.h"
 #include "support/thread_mesh.h"
 
 namespace firstcontact {
@@ -133,7 +134,7 @@ TEST(BoxFront, FindsTheFeaturesThatTheRootsFind) {
     const Shape B = rough_ball(2);
     Walk walk(3, far * Vector3d(1.0, -0.7, 0.4));
     BoxFront front;
-    for (int k = 0; k < 300; ++k, walk.step()) {
+    for (int k = 0; k < test::rounds(300, 60); ++k, walk.step()) {
       const auto expected = from_roots(A, walk.A(), B, walk.B(), kBand);
       const auto contacts = from_front(A, walk.A(), B, walk.B(), kBand, front);
       const double within = kBand - 1e-12 - 1e-14 * far;
@@ -142,7 +143,7 @@ TEST(BoxFront, FindsTheFeaturesThatTheRootsFind) {
       found += contacts.size();
     }
   }
-  EXPECT_GT(found, 1000U);
+  EXPECT_GT(found, std::size_t{test::rounds(1000, 200)});
 }
 
 /// Two of the same shape, which queries order by their places: a front has an order of its own.
@@ -183,7 +184,7 @@ TEST(BoxFront, ProvesMotionsOfAnyLength) {
     const Shape B = rough_ball(7);
     Walk walk(8, far * Vector3d(0.2, 1.0, -0.5));
     BoxFront front;
-    for (int k = 0; k < 150; ++k, walk.step()) {
+    for (int k = 0; k < test::rounds(150, 30); ++k, walk.step()) {
       (void)from_front(A, walk.A(), B, walk.B(), 2e-3, front);
       test::Random& random = walk.random();
       const double size = random.logarithmic(1e-4, 3.0);
@@ -207,8 +208,8 @@ TEST(BoxFront, ProvesMotionsOfAnyLength) {
       (result.verdict == Verdict::free ? free : met) += 1;
     }
   }
-  EXPECT_GT(free, 50U);
-  EXPECT_GT(met, 50U);
+  EXPECT_GT(free, std::size_t{test::rounds(50, 10)});
+  EXPECT_GT(met, std::size_t{test::rounds(50, 10)});
 }
 
 /// A motion of the surroundings from a pose: a door on its hinge, a screw, or a course with bends.
@@ -237,7 +238,7 @@ TEST(BoxFront, ProvesWhereSurroundingsTurnOnHingesAndScrews) {
   const Shape B = rough_ball(16);
   Walk walk(17, Vector3d(0.3, -0.2, 0.1));
   BoxFront front;
-  for (int k = 0; k < 300; ++k, walk.step()) {
+  for (int k = 0; k < test::rounds(300, 60); ++k, walk.step()) {
     (void)from_front(A, walk.A(), B, walk.B(), 2e-3, front);
     test::Random& random = walk.random();
     const double size = random.logarithmic(1e-4, 1.0);
@@ -253,8 +254,8 @@ TEST(BoxFront, ProvesWhereSurroundingsTurnOnHingesAndScrews) {
     expect_true(result, {A, motion_A}, {B, motion_B}, options, 1e-12);
     (result.verdict == Verdict::free ? free : met) += 1;
   }
-  EXPECT_GT(free, 50U);
-  EXPECT_GT(met, 50U);
+  EXPECT_GT(free, std::size_t{test::rounds(50, 10)});
+  EXPECT_GT(met, std::size_t{test::rounds(50, 10)});
 }
 
 /// A front that is refined again and again takes no more memory than a few new ones.
@@ -266,7 +267,7 @@ TEST(BoxFront, StaysSmallHoweverLongItIsKept) {
   BoxFront kept;
   std::size_t largest = 0;
   std::size_t largest_new = 0;
-  for (int k = 0; k < 3000; ++k, walk.step()) {
+  for (int k = 0; k < test::rounds(3000, 600); ++k, walk.step()) {
     (void)from_front(A, walk.A(), B, walk.B(), kBand, kept);
     BoxFront begun;
     (void)from_front(A, walk.A(), B, walk.B(), kBand, begun);

@@ -19,6 +19,7 @@
 #include <firstcontact/query/detail/order.h>
 
 #include "support/instruction_sets.h"
+#include "support/rounds.h"
 
 namespace firstcontact::few_triangles {
 namespace {
@@ -233,7 +234,7 @@ using CloseFeaturesOn = test::OnInstructionSet;
 TEST_P(CloseFeaturesOn, OfFewTrianglesAreThoseOfAllTheirPairs) {
   std::mt19937 rng(1);
   std::size_t found = 0;
-  for (int trial = 0; trial < 1500; ++trial) {
+  for (int trial = 0; trial < test::rounds(1500, 300); ++trial) {
     const Case c = any_case(rng, trial);
     SCOPED_TRACE(trial);
     ASSERT_NO_FATAL_FAILURE(expect_as_by_triangles(c));

@@ -18,6 +18,7 @@
 #include <firstcontact/query/first_contact.h>
 
 #include "query/sheet.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -275,7 +276,7 @@ TEST(KeepHalf, HoldsToHalfOfTheStartDistanceAlongAnyPath) {
   const std::vector<Named> all_floors = floors();
   const Shape cube = make_box({1, 1, 1});
   int stopped = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < test::rounds(40, 8); ++i) {
     const double gap = kMargin * std::pow(10.0, -2.0 * std::abs(number(rng)));
     const Path path{above(0.5 * number(rng), 0.5 * number(rng), gap),
                     vector().cwiseProduct(Vector3d(1.0, 1.0, gap)), gap * vector()};

@@ -234,7 +234,7 @@ TEST(ScrewSlidingCover, LetsFirstContactBeRight) {
   Workspace workspace;
   int hits = 0;
   int misses = 0;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::rounds(12, 3); ++round) {
     const Motion turning = motion_of(random_turning(round % 2 == 0 ? 0.004 : 0.02, rng));
     const FirstContactResult found =
         first_contact({inner, still}, {outer, turning}, workspace, options);
