@@ -386,7 +386,7 @@ TEST(NarrowPassages, CostLittleWhereTheWayIsWide) {
 TEST(NarrowPassages, BeginWithoutContacts) {
   const NarrowPassage passage = narrow_passage("links", 0.1);
   int early = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= rounds(10, 3); ++seed) {
     const PlanResult result = plan_path(passage.scene, passage.start, {passage.goal},
                                         {.contacts = ContactUse::both, .seed = seed});
     ASSERT_EQ(result.verdict, PlanVerdict::proven) << seed;
