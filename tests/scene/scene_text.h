@@ -8,7 +8,7 @@
 namespace firstcontact::test {
 
 /// The shape of a triangle of one metre in the plane z = 0.
-inline const std::string kTriangle =
+constexpr const char* kTriangle =
     R"({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]]})";
 
 /// A body; `more` has its pose or motion.
