@@ -75,7 +75,7 @@ TEST(ConvexSeparation, GapIsThatOfThePointsAndNearlyTheDistance) {
       ASSERT_GE(rough.gap, 0.49 * distance.lower) << seed;
     }
   }
-  EXPECT_GT(apart, 500);
+  EXPECT_GT(apart, test::rounds(500, 100));
 }
 
 TEST(ConvexSeparation, EndsWhereTheGapIsEnough) {
