@@ -148,7 +148,8 @@ class Haptics(tool_test.ToolTest):
             more = self.peak_memory("--duration", str(long), *clock, *files)
             # 15 s are 15,000 cycles and 60,000 ticks: 100 bytes of each tick would be 6 MB.
             self.assertLess(more, least + 4e6, clock)
-            self.assertGreater((self.folder / "ticks.csv").stat().st_size, 2e6)
+            if not clock:  # A busy machine skips ticks on the wall.
+                self.assertGreater((self.folder / "ticks.csv").stat().st_size, 2e6)
 
     def test_runs_on_the_wall(self):
         self.file("scene.json", scene())

@@ -14,6 +14,7 @@
 
 #include "robot/chain_case.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -218,7 +219,7 @@ std::vector<Vector3d> extreme_points(const RoundedBox& box) {
 /// Sound: no point gains more along n than the bound says, at any time after t.
 TEST(LinkWindow, NoPointOutrunsTheBound) {
   LinkScratch scratch;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(100, 25); ++seed) {
     // From far below the test of tightness to whole turns of every joint.
     const double travel = std::array<double, 5>{1e-3, 0.01, 0.1, 1.0, 20.0}[seed % 5];
     const WindowCase w = random_window(seed, {.joints = 1 + static_cast<int>(seed % 12)}, travel);

@@ -122,7 +122,7 @@ TEST(CheckRobots, AgreesWithThePlanarArmInClosedForm) {
   int free = 0;
   int contacts = 0;
   int starts = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(400, 80); ++seed) {
     const PlanarCase c(seed);
     const SceneResult result = check_robots(c.scene());
     ASSERT_NE(result.verdict, Verdict::undecided) << seed;
@@ -149,9 +149,9 @@ TEST(CheckRobots, AgreesWithThePlanarArmInClosedForm) {
       ASSERT_FALSE(result.first.has_value());
     }
   }
-  EXPECT_GE(free, 40);
-  EXPECT_GE(contacts, 100);
-  EXPECT_GE(starts, 20);
+  EXPECT_GE(free, test::rounds(40, 8));
+  EXPECT_GE(contacts, test::rounds(100, 20));
+  EXPECT_GE(starts, test::rounds(20, 4));
 }
 
 /// Contact points lie on the members, in the world.
@@ -209,7 +209,7 @@ double meshes_distance(const Mesh& A, const Mesh& B) {
 TEST(CheckRobots, CarriedBodiesFollowTheExactChain) {
   constexpr int kSamples = 30;
   int contacts = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(60, 15); ++seed) {
     const ChainCase c = random_chain(seed, {.joints = 1 + static_cast<int>(seed % 12)});
     const std::size_t tip = c.motion.model().links().size() - 1;
     Random random(seed);
@@ -251,7 +251,7 @@ TEST(CheckRobots, CarriedBodiesFollowTheExactChain) {
       ASSERT_LE(distance_at(result.t), result.tolerance_used + 1e-12) << seed;
     }
   }
-  EXPECT_GE(contacts, 10);
+  EXPECT_GE(contacts, test::rounds(10, 3));
   EXPECT_LE(contacts, 50);
 }
 
@@ -622,7 +622,7 @@ TEST(CheckRobots, LeastClearancesHoldForSamples) {
   options.closest = true;
   for (const bool of_each : {false, true}) {
     options.all_pairs = of_each;
-    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::rounds(25, 6); ++seed) {
       const PlanarCase c(seed);
       const SceneResult result = check_robots(c.scene(), options);
       double sampled = std::numeric_limits<double>::infinity();

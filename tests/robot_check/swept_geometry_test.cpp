@@ -19,6 +19,7 @@
 #include "robot/chain_case.h"
 #include "support/convex_distance.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -147,7 +148,7 @@ class Followed {
 
 TEST(SweptGeometry, GapsHoldAtAllTimesOfTheWindow) {
   int proven = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(300, 90); ++seed) {
     const Case c = Case::random(seed);
     if (!(c.window.begin < c.window.end)) {
       continue;
@@ -170,7 +171,7 @@ TEST(SweptGeometry, GapsHoldAtAllTimesOfTheWindow) {
     }
     proven += hulls.bound > 0.0 ? 1 : 0;
   }
-  EXPECT_GT(proven, 100);
+  EXPECT_GT(proven, test::rounds(100, 30));
 }
 
 /// What a window's length costs falls with it.

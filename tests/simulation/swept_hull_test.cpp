@@ -150,7 +150,7 @@ bool halves_stay_apart(const Moving& c, double by) {
 
 TEST(SweptHull, OfHalvesNeverTellsMoreEither) {
   std::mt19937 rng(5);
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < test::rounds(2000, 400); ++trial) {
     const Moving c(rng);
     const double least = c.least_distance(60);
     ASSERT_FALSE(halves_stay_apart(c, least * (1.0 + 1e-9) + 1e-12)) << trial;
@@ -161,7 +161,7 @@ TEST(SweptHull, OfHalvesTellsMoreOfWhatTurns) {
   std::mt19937 rng(6);
   int whole = 0;
   int halves = 0;
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < test::rounds(2000, 400); ++trial) {
     const Moving c(rng);
     const double least = c.least_distance(20);
     if (least > 0.05) {
