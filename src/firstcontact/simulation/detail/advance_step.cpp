@@ -99,7 +99,7 @@ class StepAdvance {
       start.waits = waits_;
       start.scripted = script_.moves(state_.states, state_.time, start.h, state_.behind, waits_);
       std::optional<std::vector<IslandTrack>> tracks =
-          advance_islands(model_, start, guesses(start.h), threads_, stop_);
+          advance_islands(model_, start, guesses(), threads_, stop_);
       if (!tracks) {
         return std::nullopt;
       }
@@ -141,10 +141,7 @@ class StepAdvance {
   }
 
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
-  ///
-  /// @param h  [s]  for which their impulses shall act
-  [[nodiscard]] std::vector<ManifoldPoint> guesses(double h) const {
-    const double share = state_.contacts_lasted > 0.0 ? h / state_.contacts_lasted : 1.0;
+  [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
     std::vector<ManifoldPoint> touches;
     touches.reserve(state_.contacts.size());
     for (const RunContact& contact : state_.contacts) {
@@ -153,7 +150,7 @@ class StepAdvance {
                          .feature_B = contact.feature_B,
                          .point = contact.point,
                          .normal = contact.normal,
-                         .impulse = share * contact.impulse});
+                         .impulse = contact.impulse});
     }
     return touches;
   }
