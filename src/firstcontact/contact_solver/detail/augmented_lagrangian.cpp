@@ -298,7 +298,7 @@ class Multipliers {
         coordinates_(problem, rows),
         hessian_(coordinates_.factorisation()),
         lagrangian_(coordinates_, rows),
-        contradiction_(coordinates_, rows),
+        contradiction_(problem, rows, coordinates_),
         per_gradient_(std::sqrt(3.0 * greatest_response(rows))) {}
 
   void solve(Projection& projection) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <Eigen/LU>
+
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 
 namespace firstcontact::detail {
@@ -24,20 +26,41 @@ double fastest(const ContactRows& rows) {
   return speed;
 }
 
-/// [kg]  The greatest mass that a side of a contact feels, or a drive.
-double heaviest(const ContactRows& rows) {
-  double mass = 0.0;
-  for (const ContactRow& row : rows.contacts) {
-    for (const RowSide& side : row.sides) {
-      const double response = side.is_link() ? side.J_q.row(0).dot(side.response_q.col(0))
-                                             : side.J.row(0).dot(side.response.col(0));
-      mass = response > 0.0 ? std::max(mass, 1.0 / response) : mass;
+/// [kg]  That coordinates have for a row, if the least of their velocities that add up to the row's
+/// do it: the row's own response may be of a mass that is smaller by far, as on a long arm.
+double mass_along(const Eigen::VectorXd& J, const Eigen::MatrixXd& mass) {
+  const double squared = J.squaredNorm();
+  return squared > 0.0 ? J.dot(mass * J) / (squared * squared) : 0.0;
+}
+
+/// [kg]  The greatest mass of a body, and of a mechanism for its contacts and ties.
+double heaviest(const ContactProblem& problem, const ContactRows& rows) {
+  double heaviest = 0.0;
+  for (const ContactBody& body : problem.bodies) {
+    for (const double inverse : body.inverse_inertia.mass) {
+      heaviest = !body.link && inverse > 0.0 ? std::max(heaviest, 1.0 / inverse) : heaviest;
+    }
+  }
+  for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
+    const Eigen::MatrixXd mass = problem.mechanisms[m].inverse_mass.inverse();
+    const Eigen::Index at = rows.layout.mechanism[m];
+    for (const ContactRow& row : rows.contacts) {
+      for (const RowSide& side : row.sides) {
+        if (side.is_link() && side.at == at) {
+          heaviest = std::max(heaviest, mass_along(side.J_q.row(0), mass));
+        }
+      }
+    }
+    for (const DriveRow& row : rows.drives) {
+      for (const TieRowSide& side : row.tie) {
+        heaviest = side.at == at ? std::max(heaviest, mass_along(side.J, mass)) : heaviest;
+      }
     }
   }
   for (const DriveRow& row : rows.drives) {
-    mass = row.own > 0.0 ? std::max(mass, 1.0 / row.own) : mass;
+    heaviest = row.own > 0.0 ? std::max(heaviest, 1.0 / row.own) : heaviest;
   }
-  return mass;
+  return heaviest;
 }
 
 /// An impulse of a drive that may grow without end, 0 of any other one.
@@ -48,11 +71,12 @@ double endless_part(const DriveRow& row, double impulse) {
 
 }  // namespace
 
-Contradiction::Contradiction(const MassWhitenedCoordinates& coordinates, const ContactRows& rows)
+Contradiction::Contradiction(const ContactProblem& problem, const ContactRows& rows,
+                             const MassWhitenedCoordinates& coordinates)
     : coordinates_(coordinates),
       rows_(rows),
       out_of_reach_(kOutOfReach * fastest(rows) *
-                    std::sqrt(static_cast<double>(coordinates.size()) * heaviest(rows))) {}
+                    std::sqrt(static_cast<double>(coordinates.size()) * heaviest(problem, rows))) {}
 
 bool Contradiction::is_shown_by(const Impulses& impulses, const std::vector<double>& bias,
                                 const Eigen::VectorXd& V) const {

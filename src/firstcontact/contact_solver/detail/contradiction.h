@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 #include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
 
@@ -20,7 +21,10 @@ namespace firstcontact::detail {
 /// round, but not what it moves.
 class Contradiction {
  public:
-  Contradiction(const MassWhitenedCoordinates& coordinates, const ContactRows& rows);
+  /// @param rows         of the problem
+  /// @param coordinates  likewise; outlive this, as the rows do
+  Contradiction(const ContactProblem& problem, const ContactRows& rows,
+                const MassWhitenedCoordinates& coordinates);
 
   /// Whether what meets the laws is out of reach: thirty times as far as if all bodies took the
   /// fastest speed that a contact has or asks for.
