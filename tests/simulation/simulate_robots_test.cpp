@@ -197,6 +197,62 @@ TEST_F(SimulateRobots, ATorqueAcceleratesByTheMoment) {
   EXPECT_NEAR(run(s, 1000).back().robots[0].velocities[0], 1.0 / kMoment, 1e-6 / kMoment);
 }
 
+// A step in which a link turns by a multiple of the longest plan leaves no rest of a plan whose
+// length is rounding.
+TEST_F(SimulateRobots, AWheelFollowsARampWhoseStepsAreWholePlans) {
+  const std::string wheel = robot_of(
+      "<link name=\"base\"/>" + link("wheel", 1.0, "0 0 0", "<box size=\"0.2 0.1 0.1\"/>") +
+      joint("axle", "continuous", "base", "wheel", "0 0 1", "0 0 0"));
+  for (const double rate : {10.0, 12.0, 20.0, 30.0, 40.0}) {
+    const std::string target = "[[0, 0], [1, " + std::to_string(rate) + "]]";
+    Simulator s =
+        simulator(scene(wheel, R"("dynamics": {"motors": {"axle": {"position": )" + target + "}}}",
+                        "", R"("step": 0.01, "gravity": [0, 0, 0])"));
+    const std::vector<RunStep> steps = run(s, 50);
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      ASSERT_NEAR(steps[k].robots[0].velocities[0], rate, 1e-9 * rate) << k;
+      ASSERT_NEAR(steps[k].robots[0].efforts[0], 0.0, 1e-9) << k;
+    }
+  }
+}
+
+/// Two carts on one rail; the second one goes 0.1 m - 2 times the way of the first.
+std::string carts(const std::string& of_first, const std::string& of_second) {
+  return robot_of("<link name=\"base\"/>" + link("a", 1.0, "0 0 0", "") +
+                  link("b", 3.0, "0 0 0", "") +
+                  joint("x1", "prismatic", "base", "a", "1 0 0", "0 0 0", of_first) +
+                  joint("x2", "prismatic", "base", "b", "1 0 0", "0 0 0",
+                        of_second + R"(<mimic joint="x1" multiplier="-2" offset="0.1"/>)"));
+}
+
+constexpr double kMassOfCarts = 1.0 + 4.0 * 3.0;  // [kg]  Along the first one's coordinate.
+
+// A joint that mimics has limits, damping and friction of its own.
+TEST_F(SimulateRobots, JointsThatMimicActOnTheOneThatTheyFollow) {
+  const std::string wide = R"(<limit lower="-5" upper="5" effort="0" velocity="0"/>)";
+  const std::string moving = R"("dynamics": {"velocities": {"x1": 1}})";
+  const auto last = [&](const std::string& urdf, const std::string& robot,
+                        const std::string& gravity) {
+    Simulator s = simulator(scene(urdf, robot, "", R"("step": 0.01, "gravity": )" + gravity));
+    return run(s, 100).back().robots[0];
+  };
+  const RunRobot stopped =
+      last(carts(wide, R"(<limit lower="-5" upper="0.3" effort="0" velocity="0"/>)"),
+           R"("dynamics": {})", "[1, 0, 0]");
+  EXPECT_NEAR(stopped.positions[0], -0.1, 1e-3);
+  const RunRobot damped =
+      last(carts(wide + R"(<dynamics damping="0.5"/>)", wide + R"(<dynamics damping="1"/>)"),
+           moving, "[0, 0, 0]");
+  EXPECT_NEAR(damped.velocities[0], std::exp(-(0.5 + 4.0) / kMassOfCarts), 1e-4);
+  const RunRobot rubbed =
+      last(carts(wide + R"(<dynamics friction="0.5"/>)", wide + R"(<dynamics friction="1"/>)"),
+           moving, "[0, 0, 0]");
+  EXPECT_NEAR(rubbed.velocities[0], 1.0 - (0.5 + 2.0) / kMassOfCarts, 1e-6);
+  const std::string of_follower =
+      scene(carts(wide, wide), R"("dynamics": {"velocities": {"x2": 1}})", "", R"("step": 0.01)");
+  EXPECT_THROW((void)simulator(of_follower), ParseError);
+}
+
 // --- What motors apply -------------------------------------------------------------------------
 
 TEST_F(SimulateRobots, TellsTheTorqueThatItIsGiven) {

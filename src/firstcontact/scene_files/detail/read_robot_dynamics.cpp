@@ -156,6 +156,20 @@ class MotorReader {
   const JsonReader& read_;
 };
 
+/// Refuses what is no coordinate of a robot, or follows another one.
+void require_own_coordinate(const SceneRobot& robot, const std::string& name,
+                            const JsonValue& value, const JsonReader& read) {
+  try {
+    const std::size_t joint = find_coordinate(robot.model, name).joint;
+    if (const std::optional<Mimic>& mimic = robot.model.joints()[joint].mimic) {
+      read.fail(value, "joint " + in_quotes(name) + " follows " + in_quotes(mimic->joint) +
+                           "; give the velocity of that one");
+    }
+  } catch (const std::invalid_argument& error) {
+    read.fail(value, error.what());
+  }
+}
+
 }  // namespace
 
 RobotDynamics read_robot_dynamics(const JsonValue& value, const SceneRobot& robot,
@@ -182,11 +196,7 @@ RobotDynamics read_robot_dynamics(const JsonValue& value, const SceneRobot& robo
       read.fail_expected("velocities by joint, such as {\"elbow\": 0.5}", *velocities);
     }
     for (const auto& [name, velocity] : *given) {
-      try {
-        (void)find_coordinate(robot.model, name);
-      } catch (const std::invalid_argument& error) {
-        read.fail(velocity, error.what());
-      }
+      require_own_coordinate(robot, name, velocity, read);
       dynamics.velocities[name] = read.number(velocity);
     }
   }

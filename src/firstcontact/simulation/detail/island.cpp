@@ -74,13 +74,16 @@ class Island {
 
  private:
   /// [s]  Of the next plan. Plans that turning makes short are of equal length: in a sliver that is
-  /// left, impulses would say nothing about the next step.
+  /// left, impulses would say nothing about the next step. None is so short that rounding of its
+  /// length would be speeds of motors.
   [[nodiscard]] double span() {
-    const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
-                                    kLeastShareOfFast * state_.start.h);
+    const double shortest = kLeastShareOfFast * state_.start.h;
+    const double of_fast =
+        std::max(std::min(state_.robots.longest_span(), tumbling_span()), shortest);
     const double rest = state_.start.h - state_.reached;
     const double plans = std::max(1.0, std::ceil(rest / turning_span()));
-    return std::min({span_, rest / plans, of_fast, tied_span()});
+    const double of_motion = std::min({rest / plans, of_fast, tied_span()});
+    return std::min(span_, rest - of_motion < shortest ? rest : of_motion);
   }
 
   /// [s]  For which no body with ties turns too far: impulses act where ties are halfway.

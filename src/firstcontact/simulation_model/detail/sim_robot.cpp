@@ -108,18 +108,16 @@ class RobotMaker {
         continue;
       }
       const Joint& joint = model_.joints()[block.joint];
-      if (!(joint.damping >= 0.0 && joint.friction >= 0.0) || !std::isfinite(joint.damping) ||
-          !std::isfinite(joint.friction)) {
-        throw std::invalid_argument("joint \"" + joint.name +
-                                    "\": its damping and friction must be finite and >= 0");
-      }
+      require_sound(joint);
       for (Eigen::Index k = 0; k < block.velocities; ++k) {
         JointLaw law{.position = block.position + k,
                      .velocity = block.velocity + k,
                      .damping = joint.damping,
                      .friction = joint.friction};
         if (block.positions == 1) {
-          law.limits = limits_of(joint, block, start);
+          const double q = start.positions[block.position];
+          law.limits = limits_of(joint, q);
+          take_followers(block.joint, q, law);
           take_motor(block.joint, law);
         }
         laws.push_back(std::move(law));
@@ -128,11 +126,17 @@ class RobotMaker {
     return laws;
   }
 
+  static void require_sound(const Joint& joint) {
+    if (!(joint.damping >= 0.0 && joint.friction >= 0.0) || !std::isfinite(joint.damping) ||
+        !std::isfinite(joint.friction)) {
+      throw std::invalid_argument("joint \"" + joint.name +
+                                  "\": its damping and friction must be finite and >= 0");
+    }
+  }
+
   /// The joint's own; 0 as the greatest effort is a gap in a file, not a joint without strength.
-  static JointLimits limits_of(const Joint& joint, const MechanismJoint& block,
-                               const MechanismState& start) {
+  static JointLimits limits_of(const Joint& joint, double q) {
     JointLimits limits = joint.limits;
-    const double q = start.positions[block.position];
     if (q < limits.lower.value_or(q) || q > limits.upper.value_or(q)) {
       throw std::invalid_argument("joint \"" + joint.name + "\" starts at " + std::to_string(q) +
                                   ", beyond its limits; give it another \"state\"");
@@ -141,6 +145,57 @@ class RobotMaker {
       limits.effort.reset();
     }
     return limits;
+  }
+
+  /// What joints that mimic one have of their own acts on its coordinate.
+  ///
+  /// @param q  [rad or m]  where the joint starts
+  void take_followers(std::size_t leader, double q, JointLaw& law) const {
+    for (const Joint& joint : model_.joints()) {
+      if (!joint.mimic) {
+        continue;
+      }
+      const auto [followed, multiplier, offset] = followed_by(joint);
+      if (followed != leader) {
+        continue;
+      }
+      require_sound(joint);
+      law.damping += multiplier * multiplier * joint.damping;
+      law.friction += std::abs(multiplier) * joint.friction;
+      narrow(limits_of(joint, multiplier * q + offset), multiplier, offset, law.limits);
+    }
+  }
+
+  /// The joint at the end of a chain of mimics: a coordinate there is multiplier q + offset here.
+  struct Followed {
+    std::size_t joint;
+    double multiplier = 1.0;  // [-]
+    double offset = 0.0;      // [rad or m]
+  };
+
+  [[nodiscard]] Followed followed_by(const Joint& joint) const {
+    Followed found{.joint = *model_.find_joint(joint.name)};
+    while (const std::optional<Mimic>& mimic = model_.joints()[found.joint].mimic) {
+      found.offset += found.multiplier * mimic->offset;
+      found.multiplier *= mimic->multiplier;
+      found.joint = *model_.find_joint(mimic->joint);
+    }
+    return found;
+  }
+
+  /// Narrows limits of a coordinate to those of multiplier q + offset.
+  static void narrow(const JointLimits& there, double multiplier, double offset,
+                     JointLimits& limits) {
+    const auto here = [&](double limit) { return (limit - offset) / multiplier; };
+    const bool is_reversed = multiplier < 0.0;
+    const std::optional<double>& lower = is_reversed ? there.upper : there.lower;
+    const std::optional<double>& upper = is_reversed ? there.lower : there.upper;
+    if (lower && multiplier != 0.0) {
+      limits.lower = std::max(here(*lower), limits.lower.value_or(here(*lower)));
+    }
+    if (upper && multiplier != 0.0) {
+      limits.upper = std::min(here(*upper), limits.upper.value_or(here(*upper)));
+    }
   }
 
   void take_motor(std::size_t joint, JointLaw& law) const {
