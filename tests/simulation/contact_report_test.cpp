@@ -116,5 +116,22 @@ TEST(ContactReport, AddsUpWhereScriptsBend) {
   EXPECT_LE(greatest_gap(steps_of(kFloor + falling_bodies() + kFan + kPaddle), 1, 11), 1e-5);
 }
 
+// A contact between bodies that turn is written as it acted, not as its normal is by then.
+TEST(ContactReport, AddsUpWhereContactsTurn) {
+  const std::string tumbles = body("a", box("[0.2, 0.2, 0.2]"), "[0, 0, 0]",
+                                   R"(, "dynamics": {"mass": 2, "linear_velocity": [1, 0, 0],
+                             "angular_velocity": [0.1, 0.4, 3]})");
+  const std::string hit =
+      body("b", box("[0.2, 0.2, 0.2]"), "[0.35, 0.05, 0.02]", R"(, "dynamics": {"mass": 2})");
+  Simulator simulator = test::simulator(tumbles + ", " + hit, test::settings(kStep, 0.0, 1e-4));
+  EXPECT_LE(greatest_gap(run(simulator, 50), 1, 2), 1e-5);
+  const std::string belt = body("belt", box("[9, 9, 1]"), "[0, 0, -0.5]",
+                                R"(, "surface": {"velocity": [2, 0, 0], "friction": 0.3})");
+  const std::string rolls =
+      body("ball", ball("0.1"), "[0, 0, 0.1001]", R"(, "dynamics": {"mass": 2})");
+  Simulator on_belt = test::simulator(belt + ", " + rolls, test::settings(kStep, 0.3, 1e-4));
+  EXPECT_LE(greatest_gap(run(on_belt, 20), 1, 2), 1e-5);
+}
+
 }  // namespace
 }  // namespace firstcontact
