@@ -178,11 +178,11 @@ TEST(Tie, SpringAtACornerIsOfSecondOrder) {
                       "points": [[0, 0, 0], [-0.15, 0.1, 0.05]], "length": 0.2,
                       "stiffness": 50})"));
   };
-  Simulator fine = made(0.000625);
-  run(fine, steps_until(0.64, 0.000625));
+  Simulator fine = made(0.0003125);
+  run(fine, steps_until(0.64, 0.0003125));
   const Vector3d right = fine.states()[0].X_WB.position;
   expect_order(
-      0.02,
+      0.01,
       [&](double h) {
         Simulator s = made(h);
         run(s, steps_until(0.64, h));

@@ -423,7 +423,8 @@ void IslandPlanner::set_moves(const std::vector<bool>& by_end,
     const Vector3d turn =
         by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
     const Vector3d& v = after[k].v;
-    plan.moves.push_back({span_ * (by_end[k] ? v : Vector3d(0.5 * (before[k].v + v))),
+    plan.moves.push_back({by_end[k] ? Vector3d(span_ * v)
+                                    : Vector3d(0.5 * span_ * (before[k].v + v) + ties_.shift(k)),
                           flight_.rotation_vectors[k] + span_ * turn});
   }
 }

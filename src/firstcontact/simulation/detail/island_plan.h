@@ -141,6 +141,11 @@ class IslandPlanner {
   void lay_ties();
   void fly_with_ties();
   void follow_ties();
+  [[nodiscard]] bool repeat_forces_of_ties();
+  [[nodiscard]] bool mix_forces_of_ties();
+  [[nodiscard]] Eigen::VectorXd changes_of_ties() const;
+  void predict_ties(const Eigen::VectorXd& impulses);
+  void forget_ties();
   void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include <firstcontact/simulation/detail/anderson_mixing.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
@@ -10,6 +11,9 @@
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
+
+using Eigen::VectorXd;
+
 namespace {
 
 /// [-]  Changes of forces that grow by more from one round to the next never become small.
@@ -21,8 +25,8 @@ constexpr double kGrowthOfTies = 1.5;
 void IslandPlanner::lay_ties() {
   std::vector<Move> moves;
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    moves.push_back(
-        {0.5 * span_ * (bodies_.bodies()[k].v + flight_.at_end[k].v), flight_.rotation_vectors[k]});
+    moves.push_back({0.5 * span_ * (bodies_.bodies()[k].v + flight_.at_end[k].v) + ties_.shift(k),
+                     flight_.rotation_vectors[k]});
   }
   std::vector<ContactBody> at_end = problem_.bodies;
   std::vector<bool> spinning(state_.size(), false);
@@ -54,35 +58,77 @@ void IslandPlanner::fly_with_ties() {
   by_end_ = by_end_ || !mean_is_allowed();
 }
 
-/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Near
-/// positions in which a loop is singular they do not: there nothing is predicted, and velocities
-/// are projected where flights end, which adds no energy.
+/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Where
+/// repeats do not find them, changes are mixed: a force on a long arm or on a light link turns it
+/// more than it moves it. Near positions in which a loop is singular that does not find them
+/// either: there nothing is predicted, and velocities are projected where flights end, which adds
+/// no energy.
 void IslandPlanner::follow_ties() {
+  if (!repeat_forces_of_ties()) {
+    forget_ties();
+    if (!mix_forces_of_ties()) {
+      forget_ties();
+    }
+  }
+}
+
+/// Returns whether the forces were found.
+bool IslandPlanner::repeat_forces_of_ties() {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRoundsOfTies; ++round) {
     const double change = ties_.greatest_change(last_->velocities.ties);
     const bool is_near = change <= kNearChangeOfTies;
     const bool is_done = change <= kChangeOfTies || (is_near && change > 0.5 * before);
     if (is_done && laid_by_end_ == by_end_) {
-      return;
+      return true;
     }
     const bool is_last = round + 1 == kMostRoundsOfTies;
     if (!is_near && (is_last || !(change <= kGrowthOfTies * before))) {
-      ties_.forget();
-      loads_.reset();
-      flights_.clear();
-      for (ContactPoint& contact : problem_.contacts) {
-        contact.guess.setZero();
-      }
-      fly_with_ties();
-      return;
+      return false;
     }
     before = change;
-    ties_.take(last_->velocities.ties);
-    take_spins();
-    take_loads();
-    fly_with_ties();
+    predict_ties(ties_.predicted() + changes_of_ties());
   }
+  return true;
+}
+
+/// Likewise, by mixing. The first guess is no impulse at all, too far from the others to count.
+bool IslandPlanner::mix_forces_of_ties() {
+  AndersonMixing mixing;
+  predict_ties(changes_of_ties());
+  for (int round = 0; round < kMostMixedRoundsOfTies; ++round) {
+    if (ties_.greatest_change(last_->velocities.ties) <= kMixedChangeOfTies &&
+        laid_by_end_ == by_end_) {
+      return true;
+    }
+    predict_ties(mixing.next(ties_.predicted(), changes_of_ties()));
+  }
+  return ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
+}
+
+/// Those that the last solution found.
+VectorXd IslandPlanner::changes_of_ties() const {
+  const std::vector<double>& changes = last_->velocities.ties;
+  return VectorXd::Map(changes.data(), static_cast<Eigen::Index>(changes.size()));
+}
+
+/// Lets ties act in flights by these impulses, and solves.
+void IslandPlanner::predict_ties(const VectorXd& impulses) {
+  ties_.predict(impulses);
+  take_spins();
+  take_loads();
+  fly_with_ties();
+}
+
+/// Predicts no forces of ties, and solves.
+void IslandPlanner::forget_ties() {
+  ties_.forget();
+  loads_.reset();
+  flights_.clear();
+  for (ContactPoint& contact : problem_.contacts) {
+    contact.guess.setZero();
+  }
+  fly_with_ties();
 }
 
 /// Adds displacements without velocity that bring joints of ties together, and cables back to their

@@ -8,6 +8,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/redundant_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -30,6 +31,16 @@ std::array<TiedSide, 2> sides_now(const SimTie& tie, const TiePlace& place,
     sides[s].point = tie.is_joint() ? place.middle() : place.X_WT[s].position;
   }
   return sides;
+}
+
+/// Adds the rows of a joint where its bodies are now.
+void add_joint_now(IslandState& state, const SimTie& tie, const ProblemBodies& bodies,
+                   std::vector<TieRow>& rows) {
+  const TiePlace place = place_now(state, tie);
+  const std::array<TiedSide, 2> sides = sides_now(tie, place, bodies);
+  for (const TieDirection& direction : directions_of(tie, place)) {
+    rows.push_back(row_along(direction, sides));
+  }
 }
 
 double velocity_of(const TieRow& row, const std::vector<ContactBody>& bodies) {
@@ -77,6 +88,38 @@ TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& s
   return row;
 }
 
+double inverse_mass_between(const TieRow& one, const TieRow& other, const ContactProblem& problem) {
+  double sum = 0.0;
+  for (const TieSide& on : one.sides) {
+    const ContactBody& pushed = problem.bodies[on.body];
+    for (const TieSide& by : other.sides) {
+      const ContactBody& body = problem.bodies[by.body];
+      if (pushed.link && body.link && pushed.link->mechanism == body.link->mechanism) {
+        const ContactMechanism& mechanism = problem.mechanisms[body.link->mechanism];
+        sum += (pushed.link->J.transpose() * on.row)
+                   .dot(mechanism.inverse_mass * (body.link->J.transpose() * by.row));
+      } else if (on.body == by.body && !body.link) {
+        const InverseInertia& inverse = body.inverse_inertia;
+        sum += on.row.head<3>().dot(inverse.mass.cwiseProduct(by.row.head<3>())) +
+               on.row.tail<3>().dot(inverse.rotation * by.row.tail<3>());
+      }
+    }
+  }
+  return sum;
+}
+
+std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies) {
+  ContactProblem problem{.bodies = bodies.bodies()};
+  state.robots.add_mechanisms(problem);
+  for (const std::size_t t : state.ties) {
+    if (state.model.ties[t].is_joint()) {
+      add_joint_now(state, state.model.ties[t], bodies, problem.ties);
+    }
+  }
+  return may_be_redundant(state) ? find_redundant(problem)
+                                 : std::vector<bool>(problem.ties.size(), false);
+}
+
 bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place) {
   return place.between().norm() >= tie.length - kTautOfDistance * state.model.distances.least;
 }
@@ -96,17 +139,25 @@ void add_tied_bodies(IslandState& state, ProblemBodies& bodies) {
 }
 
 std::vector<TieRow> rigid_rows(IslandState& state, const ProblemBodies& bodies) {
+  const std::vector<bool> redundant = redundant_rows(state, bodies);
   std::vector<TieRow> rows;
+  std::size_t next = 0;  // Of the rows of joints.
   for (const std::size_t t : state.ties) {
     const SimTie& tie = state.model.ties[t];
-    const TiePlace place = place_now(state, tie);
-    const std::array<TiedSide, 2> sides = sides_now(tie, place, bodies);
     if (tie.is_joint()) {
-      for (const TieDirection& direction : directions_of(tie, place)) {
-        rows.push_back(row_along(direction, sides));
+      const std::size_t first = rows.size();
+      add_joint_now(state, tie, bodies, rows);
+      for (std::size_t k = first; k < rows.size(); ++k) {
+        if (redundant[next++]) {
+          take_out(rows[k]);
+        }
       }
-    } else if (tie.is_inextensible() && is_taut(state, tie, place)) {
-      rows.push_back(row_along({.linear = place.between().normalized()}, sides));
+      continue;
+    }
+    const TiePlace place = place_now(state, tie);
+    if (tie.is_inextensible() && is_taut(state, tie, place)) {
+      rows.push_back(
+          row_along({.linear = place.between().normalized()}, sides_now(tie, place, bodies)));
       rows.back().greatest = 0.0;
     }
   }

@@ -35,6 +35,10 @@ struct TiedSide {
 /// The row of a direction.
 [[nodiscard]] TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& sides);
 
+/// [1/kg]  What an impulse along one row does to the velocity along another one.
+[[nodiscard]] double inverse_mass_between(const TieRow& one, const TieRow& other,
+                                          const ContactProblem& problem);
+
 /// Whether a cable is as long as it gets, or nearly so.
 [[nodiscard]] bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place);
 
@@ -42,6 +46,9 @@ struct TiedSide {
 
 /// Adds the bodies around the island that are tied to it.
 void add_tied_bodies(IslandState& state, ProblemBodies& bodies);
+
+/// Of each row of each joint where bodies are now: whether the rows before it imply it.
+[[nodiscard]] std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies);
 
 /// The rows of joints and of taut cables where bodies are now: velocities or displacements along
 /// them are none.

@@ -7,7 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/redundant_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -29,24 +31,6 @@ Vector3d mean_direction(const Vector3d& now, const Vector3d& end) {
     return sum / lengths;
   }
   return now.norm() > 0.0 ? Vector3d(now.normalized()) : Vector3d(Vector3d::UnitZ());
-}
-
-/// [1/kg]  What an impulse along a row does to its velocity.
-double inverse_mass_along(const TieRow& row, const ContactProblem& problem) {
-  double sum = 0.0;
-  for (const TieSide& side : row.sides) {
-    const ContactBody& body = problem.bodies[side.body];
-    if (body.link) {
-      const VectorXd J = body.link->J.transpose() * side.row;
-      sum += J.dot(problem.mechanisms[body.link->mechanism].inverse_mass * J);
-    } else {
-      const Vector3d linear = side.row.head<3>();
-      const Vector3d angular = side.row.tail<3>();
-      sum += linear.dot(body.inverse_inertia.mass.cwiseProduct(linear)) +
-             angular.dot(body.inverse_inertia.rotation * angular);
-    }
-  }
-  return sum;
 }
 
 double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
@@ -92,9 +76,52 @@ PlanTies::PlanTies(IslandState& state, double span) : state_(state), span_(span)
     }
     const bool is_line = !tie.is_joint() && !tie.is_vector();
     acting.predicted.assign(is_line ? 1 : directions_of(tie, acting.now).size(), 0.0);
+    acting.lever = lever_of(acting);
     acting_.push_back(std::move(acting));
   }
   find_link_forces();
+  find_redundant_rows();
+}
+
+void PlanTies::find_redundant_rows() {
+  if (!may_be_redundant(state_)) {
+    return;
+  }
+  ProblemBodies bodies = state_.problem_bodies();
+  add_tied_bodies(state_, bodies);
+  const std::vector<bool> redundant = redundant_rows(state_, bodies);
+  auto next = redundant.begin();
+  for (Acting& acting : acting_) {
+    if (acting.tie->is_joint()) {
+      const auto end = next + static_cast<std::ptrdiff_t>(acting.predicted.size());
+      acting.is_redundant.assign(next, end);
+      next = end;
+    }
+  }
+}
+
+bool PlanTies::Acting::is_out(std::size_t direction) const {
+  return direction < is_redundant.size() && is_redundant[direction];
+}
+
+/// The end of a joint whose body an impulse turns most; none without a free body.
+std::optional<std::size_t> PlanTies::lever_of(const Acting& acting) const {
+  std::optional<std::size_t> lever;
+  double most = 0.0;  // [1/kg]
+  for (std::size_t s = 0; s < 2 && acting.tie->is_joint(); ++s) {
+    const std::optional<std::size_t>& b = acting.tie->ends[s].body;
+    if (!b || !state_.place.contains(*b) || state_.model.bodies[*b].link_body) {
+      continue;
+    }
+    const Inertia& inertia = state_.model.bodies[*b].inertia;
+    const Vector3d arm = acting.now.X_WT[s].position - acting.centres_now[s];
+    const double response = 3.0 * arm.squaredNorm() / inertia.about_C_B.trace();
+    if (response > most) {
+      most = response;
+      lever = s;
+    }
+  }
+  return lever;
 }
 
 void PlanTies::find_link_forces() {
@@ -188,6 +215,42 @@ void PlanTies::follow(Acting& acting, const IslandFlight& flight) const {
   }
 }
 
+/// Over a span h the trapezoidal rule errs by h^2 / 12 times the change of the acceleration. That
+/// of an acceleration a that turns by a small phi is phi x a.
+Vector3d PlanTies::shift(std::size_t member) const {
+  Vector3d impulse = Vector3d::Zero();
+  for (const Acting& acting : acting_) {
+    // A weld keeps the angular momentum of what tumbles: forces and torques turn apart there.
+    const bool turns = acting.lever && !acting.halfway.empty() && acting.tie->type != TieType::weld;
+    for (std::size_t s = 0; s < 2 && turns; ++s) {
+      if (acting.tie->ends[s].body == state_.members[member]) {
+        const Vector3d on = sum_of(acting.halfway, acting.predicted).linear;
+        impulse += (s == 0 ? -1.0 : 1.0) * acting.turn.cross(on);
+      }
+    }
+  }
+  const InverseInertia inverse =
+      inverse_inertia(state_.member(member).inertia, state_.states[member].X_WB);
+  return -span_ / 12.0 * inverse.mass.cwiseProduct(impulse);
+}
+
+/// Turns the three directions of a joint's force with the body that it turns most. So an impulse
+/// along a long arm stays along it while flights are searched for in which arms point elsewhere.
+void PlanTies::turn_with_lever(Acting& acting) const {
+  if (!acting.lever) {
+    return;
+  }
+  const Eigen::Quaterniond now = acting.now.X_WT[*acting.lever].rotation.normalized();
+  const Eigen::Quaterniond turn =
+      acting.end.X_WT[*acting.lever].rotation.normalized() * now.conjugate();
+  acting.turn = nearest_turn(turn, Vector3d::Zero());
+  const Eigen::Quaterniond half = Eigen::Quaterniond::Identity().slerp(0.5, turn);
+  for (std::size_t k = 0; k < 3; ++k) {
+    acting.halfway[k].linear = half * acting.halfway[k].linear;
+    acting.changing[k].linear = turn * acting.changing[k].linear;
+  }
+}
+
 void PlanTies::set_directions(Acting& acting) const {
   const SimTie& tie = *acting.tie;
   for (std::size_t s = 0; s < 2; ++s) {
@@ -197,12 +260,16 @@ void PlanTies::set_directions(Acting& acting) const {
   if (tie.is_joint()) {
     acting.halfway = directions_of(tie, acting.now);
     acting.changing = directions_of(tie, acting.end);
+    turn_with_lever(acting);
     for (std::size_t k = 0; k < acting.halfway.size(); ++k) {
       TieDirection& halfway = acting.halfway[k];
       halfway.angular = 0.5 * (halfway.angular + acting.changing[k].angular);
     }
-    acting.at.fill(0.5 * (acting.now.middle() + acting.end.middle()));
-    acting.where.fill(acting.end.middle());
+    const auto point = [&](const TiePlace& place) -> Vector3d {
+      return acting.lever ? place.X_WT[*acting.lever].position : place.middle();
+    };
+    acting.at.fill(0.5 * (point(acting.now) + point(acting.end)));
+    acting.where.fill(point(acting.end));
     return;
   }
   if (tie.is_vector()) {
@@ -265,7 +332,9 @@ void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFl
   const std::array<TiedSide, 2> sides = sides_of(acting, now, flight);
   for (std::size_t k = 0; k < acting.changing.size(); ++k) {
     problem.ties.push_back(row_along(acting.changing[k], sides));
-    if (tie.is_inextensible()) {
+    if (acting.is_out(k)) {
+      take_out(problem.ties.back());
+    } else if (tie.is_inextensible()) {
       TieRow& row = problem.ties.back();
       row.target = std::max(0.0, tie.length - acting.now.between().norm()) / span_;
       row.greatest = -acting.predicted[0];
@@ -295,11 +364,21 @@ void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodi
   way.speed_at_begin = speed_along(row_along(acting.changing[k], as_they_are), now.bodies());
   way.speed_of_flight = speed_along(row, flown);
   way.share = acting.by_end ? 1.0 : 0.5;
-  way.inverse_mass = inverse_mass_along(row, problem);
+  way.inverse_mass = inverse_mass_between(row, row, problem);
+  const bool is_cable = tie.type == TieType::cable;
+  if (is_cable && way.begin < 0.0) {
+    if (way.flight <= 0.0) {  // Slack: nothing acts.
+      row.least = -acting.predicted[k];
+      row.greatest = -acting.predicted[k];
+      return;
+    }
+    way.begin = 0.0;
+    way.speed_at_begin = 0.0;
+  }
   const SpringRow law = spring_row(tie, way, span_);
   row.compliance = law.compliance;
   row.target = law.target - law.compliance * acting.predicted[k];
-  if (tie.type == TieType::cable) {
+  if (is_cable) {
     row.greatest = -acting.predicted[k];
   }
 }
@@ -323,10 +402,18 @@ double PlanTies::greatest_change(const std::vector<double>& changes) const {
   return most > 0.0 ? most / greatest : 0.0;
 }
 
-void PlanTies::take(const std::vector<double>& changes) {
+VectorXd PlanTies::predicted() const {
+  std::vector<double> all;
+  for (const Acting& acting : acting_) {
+    all.insert(all.end(), acting.predicted.begin(), acting.predicted.end());
+  }
+  return VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+void PlanTies::predict(const VectorXd& impulses) {
   for (Acting& acting : acting_) {
     for (std::size_t k = 0; k < acting.predicted.size(); ++k) {
-      acting.predicted[k] += changes[acting.first_row + k];
+      acting.predicted[k] = impulses[static_cast<Eigen::Index>(acting.first_row + k)];
     }
   }
 }
@@ -429,7 +516,11 @@ double PlanTies::add_settling(const std::vector<Pose>& at_end, const std::vector
       for (std::size_t k = 0; k < directions.size(); ++k) {
         problem.ties.push_back(row_along(directions[k], sides));
         problem.ties.back().target = -off[k];
-        farthest = std::max(farthest, std::abs(off[k]));
+        if (acting.is_out(k)) {
+          take_out(problem.ties.back());
+        } else {
+          farthest = std::max(farthest, std::abs(off[k]));
+        }
       }
       continue;
     }

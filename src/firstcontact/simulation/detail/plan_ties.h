@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,6 +51,10 @@ class PlanTies {
   /// link body.
   void add_to(std::size_t member, Eigen::Vector3d& force, Eigen::Vector3d& torque) const;
 
+  /// [m]  How much farther predicted forces of joints take a member than the mean of its velocities
+  /// at both ends does, as they turn with the body that they turn most.
+  [[nodiscard]] Eigen::Vector3d shift(std::size_t member) const;
+
   /// The predicted forces along the coordinates of robots, and those on their links; empty: none.
   [[nodiscard]] std::vector<Eigen::VectorXd> loads(const std::vector<RobotFlight>& flights) const;
 
@@ -61,8 +66,11 @@ class PlanTies {
   /// [-]  The greatest change of an impulse in a solution, as a part of the greatest impulse.
   [[nodiscard]] double greatest_change(const std::vector<double>& changes) const;
 
-  /// Predicts with the impulses that a solution found.
-  void take(const std::vector<double>& changes);
+  /// The predicted impulses [N s or N m s], in the order of the rows.
+  [[nodiscard]] Eigen::VectorXd predicted() const;
+
+  /// Predicts with impulses in the order of the rows.
+  void predict(const Eigen::VectorXd& impulses);
 
   /// Predicts that no tie acts.
   void forget();
@@ -88,18 +96,24 @@ class PlanTies {
   /// A tie in the plan.
   struct Acting {
     const SimTie* tie = nullptr;
-    std::size_t index = 0;  // Of the model.
+    std::size_t index = 0;                  // Of the model.
+    std::optional<std::size_t> lever = {};  // The end whose body impulses turn most.
     TiePlace now = {};
     TiePlace end = {};  // Where flights lead.
     std::array<Eigen::Vector3d, 2> centres_now = {};
     std::array<Eigen::Vector3d, 2> centres_end = {};
-    std::vector<TieDirection> halfway = {};     // In which predicted impulses act,
-    std::array<Eigen::Vector3d, 2> at = {};     // [m]  and where.
-    std::vector<TieDirection> changing = {};    // In which those of the problem act,
-    std::array<Eigen::Vector3d, 2> where = {};  // [m]  and where.
-    std::vector<double> predicted = {};         // [N s or N m s]
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // [rad]  Of that body in the plan.
+    std::vector<TieDirection> halfway = {};          // In which predicted impulses act,
+    std::array<Eigen::Vector3d, 2> at = {};          // [m]  and where.
+    std::vector<TieDirection> changing = {};         // In which those of the problem act,
+    std::array<Eigen::Vector3d, 2> where = {};       // [m]  and where.
+    std::vector<double> predicted = {};              // [N s or N m s]
+    std::vector<bool> is_redundant = {};             // Of each direction of a joint.
     bool by_end = false;
     std::size_t first_row = 0;
+
+    /// Whether rows before that of a direction imply it.
+    [[nodiscard]] bool is_out(std::size_t direction) const;
   };
   /// A force on a link body, of the mean over the span.
   struct LinkForce {
@@ -109,8 +123,11 @@ class PlanTies {
   };
 
   void find_link_forces();
+  void find_redundant_rows();
+  [[nodiscard]] std::optional<std::size_t> lever_of(const Acting& acting) const;
   [[nodiscard]] Pose pose_at_end(std::size_t body, const IslandFlight& flight) const;
   void follow(Acting& acting, const IslandFlight& flight) const;
+  void turn_with_lever(Acting& acting) const;
   void set_directions(Acting& acting) const;
   [[nodiscard]] std::array<TiedSide, 2> sides_of(const Acting& acting, const ProblemBodies& now,
                                                  const IslandFlight& flight) const;

@@ -249,12 +249,15 @@ inline constexpr int kMostRoundsOfTies = 8;
 inline constexpr double kChangeOfTies = 1e-9;
 /// [-]  Forces that still change by more after these rounds are not predicted at all.
 inline constexpr double kNearChangeOfTies = 1e-3;
+/// [rounds]  Where changes are mixed, flights are made again so often, until [-] this is left.
+inline constexpr int kMostMixedRoundsOfTies = 24;
+inline constexpr double kMixedChangeOfTies = 1e-6;
 /// [-]  A displacement that closes a gap is at most so many times as long as the gap.
 inline constexpr double kFarthestOfGap = 20.0;
 /// [impacts]  After so many in a step, cables are taut at the end of a plan in place of within it.
 inline constexpr std::size_t kMostTautEvents = 20;
 /// [rad]  Bodies with ties turn no farther in a plan.
-inline constexpr double kMostTurnOfTied = 0.5;
+inline constexpr double kMostTurnOfTied = 0.25;
 /// [-]  Islands with ties sleep at this part of the speed of others: a soft spring is slow where it
 /// turns back.
 inline constexpr double kRestOfTied = 0.1;

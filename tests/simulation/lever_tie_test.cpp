@@ -1,0 +1,169 @@
+// Ties on long arms and light links, and ties that say the same twice.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_run.h"
+#include "simulation/tie_laws.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+using test::body;
+using test::box;
+using test::energy_of;
+using test::run;
+using test::simulator;
+using test::tie_settings;
+
+const std::string kFree = R"(, "dynamics": {})";
+
+/// [m]  How far a point of a body gets from a place.
+double farthest(const std::vector<RunStep>& steps, std::size_t b, const Vector3d& p_B,
+                const Vector3d& place) {
+  double most = 0.0;
+  for (const RunStep& step : steps) {
+    const Pose& X = step.bodies[b].X_WB;
+    most = std::max(most, (X.position + X.rotation * p_B - place).norm());
+  }
+  return most;
+}
+
+/// [N]  The greatest force of a tie.
+double greatest_force(const std::vector<RunStep>& steps, std::size_t tie) {
+  double most = 0.0;
+  for (const RunStep& step : steps) {
+    most = std::max(most, step.ties[tie].force.norm());
+  }
+  return most;
+}
+
+// Its arm is a hundred times its radius of gyration and more: impulses turn the cube, and hardly
+// move it.
+TEST(LeverTie, ASmallCubeSwingsOnALongArm) {
+  for (const std::string size : {"0.1", "0.05", "0.02", "0.01"}) {
+    Simulator s = simulator(
+        body("bob", box("[" + size + ", " + size + ", " + size + "]"), "[1, 0, 0]", kFree),
+        tie_settings(0.01, R"({"type": "pin", "bodies": [null, "bob"],
+                                         "points": [[0, 0, 0], null]})"));
+    const std::vector<RunStep> steps = run(s, 128);
+    EXPECT_LE(farthest(steps, 0, {-1, 0, 0}, Vector3d::Zero()), 1e-8) << size;
+    const double weight = std::pow(std::stod(size), 3) * 1000.0 * 9.81;  // [N]
+    EXPECT_NEAR(energy_of(steps.back()), energy_of(steps.front()), 1e-4 * weight) << size;
+  }
+}
+
+// A rod of a thousandth of its load holds the load, and keeps the energy.
+TEST(LeverTie, ALightRodHoldsALoad) {
+  Simulator s = simulator(
+      body("rod", box("[0.1, 0.1, 0.1]"), "[0.5, 0, 0]", R"(, "dynamics": {"mass": 1e-3})") + ", " +
+          body("load", box("[0.1, 0.1, 0.1]"), "[1, 0, 0]", R"(, "dynamics": {"mass": 1})"),
+      tie_settings(0.01, R"({"type": "pin", "bodies": [null, "rod"], "points": [[0, 0, 0], null]},
+                            {"type": "pin", "bodies": ["rod", "load"],
+                             "points": [[0.25, 0, 0], null]})"));
+  const std::vector<RunStep> steps = run(s, 100);
+  EXPECT_LE(farthest(steps, 0, {-0.5, 0, 0}, Vector3d::Zero()), 1e-6);
+  EXPECT_LE(std::abs(energy_of(steps.back()) - energy_of(steps.front())), 0.05);  // Of 7.4 J.
+}
+
+// Nothing acts on it but a hinge.
+TEST(LeverTie, ABodyOnAHingeKeepsItsEnergy) {
+  const auto drift = [](const std::string& made, const std::string& hinge) {
+    Simulator s = simulator(made, tie_settings(0.01, hinge, false));
+    const std::vector<RunStep> steps = run(s, 300);
+    return energy_of(steps.back()) / energy_of(steps.front()) - 1.0;
+  };
+  const std::string hinge = R"({"type": "hinge", "bodies": [null, "a"],
+                                "points": [[0, 0, 0], null], "axis": [0, 0, 1]})";
+  EXPECT_LE(std::abs(drift(body("a", box("[0.1, 0.1, 0.1]"), "[1, 0, 0]",
+                                R"(, "dynamics": {"linear_velocity": [0, 4, 0],
+                                                   "angular_velocity": [0, 0, 4]})"),
+                           hinge)),
+            1e-6);
+  // Half a radian in a step.
+  EXPECT_LE(std::abs(drift(body("a", box("[0.2, 0.05, 0.05]"), "[0.1, 0, 0]",
+                                R"(, "dynamics": {"linear_velocity": [0, 5, 0],
+                                                   "angular_velocity": [0, 0, 50]})"),
+                           hinge)),
+            2e-4);
+}
+
+// Each further hinge of a door says what the first one does.
+TEST(LeverTie, ADoorMayHaveMoreHingesThanItNeeds) {
+  const auto hinge = [](double z) {
+    return R"({"type": "hinge", "bodies": [null, "door"], "points": [)" + test::numbers({0, 0, z}) +
+           R"(, null], "axis": [0, 0, 1]})";
+  };
+  const auto door = [](const std::string& hinges) {
+    return simulator(body("door", box("[0.8, 0.04, 2]"), "[0.4, 0, 0]",
+                          R"(, "dynamics": {"mass": 20, "angular_velocity": [0, 0, 8],
+                                            "linear_velocity": [0, 3.2, 0]})"),
+                     tie_settings(0.01, hinges));
+  };
+  for (const std::string& hinges : {hinge(-0.8), hinge(-0.8) + ", " + hinge(0.8),
+                                    hinge(-0.8) + ", " + hinge(0.8) + ", " + hinge(0.3)}) {
+    Simulator s = door(hinges);
+    const std::vector<RunStep> steps = run(s, 200);
+    EXPECT_NEAR(energy_of(steps.back()), energy_of(steps.front()), 1e-4 * 136.6);
+    // m w^2 r is 512 N, and the weight 196 N.
+    EXPECT_NEAR(greatest_force(steps, 0), std::hypot(512.0, 196.2), 5.0);
+  }
+}
+
+// Welds that close a frame of four bars are more than it needs.
+TEST(LeverTie, AFrameOfWeldsStaysWhole) {
+  const auto bar = [](const std::string& name, const std::string& size, const std::string& at) {
+    return body(name, box(size), at, kFree);
+  };
+  Simulator s = simulator(bar("a", "[1, 0.1, 0.1]", "[0, 0, 0]") + ", " +
+                              bar("b", "[0.1, 0.1, 1]", "[0.6, 0, 0.5]") + ", " +
+                              bar("c", "[1, 0.1, 0.1]", "[0, 0, 1]") + ", " +
+                              bar("d", "[0.1, 0.1, 1]", "[-0.6, 0, 0.5]"),
+                          tie_settings(0.01, R"({"type": "weld", "bodies": ["a", "b"]},
+                            {"type": "weld", "bodies": ["b", "c"]},
+                            {"type": "weld", "bodies": ["c", "d"]},
+                            {"type": "weld", "bodies": ["d", "a"]},
+                            {"type": "hinge", "bodies": [null, "a"], "points": [[0, 0, 0], null],
+                             "axis": [0, 1, 0]})"));
+  const std::vector<RunStep> steps = run(s, 100);
+  EXPECT_LE(farthest(steps, 0, Vector3d::Zero(), Vector3d::Zero()), 1e-6);
+  for (const RunStep& step : steps) {
+    const Pose& a = step.bodies[0].X_WB;
+    const Pose& c = step.bodies[2].X_WB;
+    ASSERT_LE((a.rotation.conjugate() * (c.position - a.position) - Vector3d(0, 0, 1)).norm(),
+              1e-5);
+  }
+  EXPECT_NEAR(energy_of(steps.back()), energy_of(steps.front()), 0.1);
+}
+
+// A damper beside its spring is one of the cable: neither acts where that is slack.
+TEST(LeverTie, ASlackCableDoesNotDamp) {
+  Simulator s = simulator(body("a", test::ball("0.05"), "[0.2, 0, 0]",
+                               R"(, "dynamics": {"mass": 2, "linear_velocity": [3, 0, 0]})"),
+                          tie_settings(0.005, R"({"type": "cable", "bodies": [null, "a"],
+                              "points": [[0, 0, 0], [0, 0, 0]], "length": 1, "stiffness": 500,
+                              "damping": 200})",
+                                       false));
+  double pull = 0.0;
+  double energy = 9.0;  // [J]
+  for (const RunStep& step : run(s, 200)) {
+    const double x = step.bodies[0].X_WB.position.x();
+    if (x <= 1.0 && pull == 0.0) {
+      EXPECT_EQ(step.ties[0].force.norm(), 0.0) << x;
+    }
+    pull = std::max(pull, -step.ties[0].force.x());
+    EXPECT_LE(energy_of(step), energy + 1e-9);
+    EXPECT_LE(step.ties[0].force.x(), 1e-9);
+    energy = energy_of(step);
+  }
+  EXPECT_GT(pull, 100.0);
+  EXPECT_LT(energy, 9.0);
+}
+
+}  // namespace
+}  // namespace firstcontact
