@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -249,6 +250,38 @@ TEST(ContactLoop, MakesCoursesWaitWhereTheyWouldCrushATool) {
   EXPECT_GT(lost, 0.05);
   EXPECT_LT(loop.pose(0).position.x(), 0.03);
   EXPECT_GT(loop.pose(1).position.x(), -0.02);
+}
+
+/// A cube on a plate that rises to a ceiling in half a second: there is room for the cube only.
+HapticScene cube_in_a_press() {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("cube", make_box({0.03, 0.03, 0.03}), {0.003, 0.0, 0.045}));
+  HapticBody plate = body_at("plate", make_box({0.2, 0.2, 0.02}), Vector3d::Zero());
+  plate.course = Motion::constant_velocity(plate.X_WB, Vector3d(0.0, 0.0, 0.03));
+  scene.bodies.push_back(plate);
+  scene.bodies.push_back(body_at("ceiling", make_box({0.2, 0.2, 0.02}), {0.0, 0.0, 0.08}));
+  scene.duration = 0.5;
+  return scene;
+}
+
+TEST(ContactLoop, LetsAToolOutBetweenBodiesThatWaitForIt) {
+  ContactLoop loop(cube_in_a_press());
+  const Vector3d middle(0.003, 0.0, 0.05);
+  for (int k = 0; k < 600; ++k) {
+    (void)loop.advance(std::array{at(middle)}, kMillisecond, k);
+  }
+  // A surface that waits does not move.
+  EXPECT_EQ(loop.contact_set().count, 8U);
+  for (std::uint32_t k = 0; k < loop.contact_set().count; ++k) {
+    EXPECT_EQ(loop.contact_set().contacts[k].surface_velocity, Vector3d::Zero());
+  }
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d pulled = middle + Vector3d(5e-4 * k, 0.0, 0.0);
+    const HapticCycle& cycle = loop.advance(std::array{at(pulled)}, kMillisecond, k);
+    EXPECT_NEAR(loop.pose(0).position.x(), pulled.x(), 1e-5) << k;
+    EXPECT_LT(cycle.lasted, cycle.asked) << k;
+    ASSERT_GT(cycle.clearance, 0.3 * loop.contact_distance()) << k;
+  }
 }
 
 /// Where a member of a cycle is at a time of it; tools turn about their centres, here their

@@ -52,7 +52,7 @@ struct HapticTouch {
 struct HapticCycle {
   std::uint64_t index = 0;  ///< From 1.
   double asked = 0.0;       ///< [s]
-  double lasted = 0.0;      ///< [s]  Less where bodies with courses had to wait for a tool.
+  double lasted = 0.0;  ///< [s]  For courses; less than asked where they had to wait for a tool.
   /// [m]  Proven: no tool came closer to anything in this cycle. Infinite where nothing is near.
   double clearance = 0.0;
   std::size_t rounds = 0;     ///< Projections.
@@ -85,7 +85,8 @@ struct ContactLoopOptions {
 /// In a cycle a god-object goes where its spring pulls it as far as contacts allow (Gauss'
 /// principle without inertia, with Coulomb friction), until the first contact of its in-between
 /// motion, and on from there. Each motion is proven apart from everything at a distance that is
-/// kept. Where bodies with a course would squeeze a tool, time ends for them: HapticCycle::lasted.
+/// kept. Where bodies with a course would squeeze a tool they wait, and only it moves until the
+/// cycle ends (HapticCycle::lasted).
 ///
 /// The coordinates of a tool with joints are its pose and those of its joints, each with its own
 /// spring. Its links are members of their own. Each moves at constant rates, so a joint opens while

@@ -59,15 +59,17 @@ HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double
 }
 
 RunStep HapticRun::step(const HapticCycle& cycle) {
-  time_ += cycle.lasted;
+  time_ += cycle.asked;
+  behind_ += cycle.asked - cycle.lasted;
   RunStep step{.index = ++count_,
                .time = time_,
-               .lasted = cycle.lasted,
-               .time_lost = cycle.asked - cycle.lasted,
+               .lasted = cycle.asked,
                .clearance = cycle.clearance,
                .events = cycle.rounds};
   for (const HapticMemberMotion& motion : cycle.members) {
-    step.bodies.push_back(run_body(motion, bodies_[motion.member]));
+    RunBody& body = step.bodies.emplace_back(run_body(motion, bodies_[motion.member]));
+    const bool has_course = !(header_.masses[body.body] > 0.0);
+    body.behind = has_course ? behind_ : 0.0;
   }
   std::ranges::sort(step.bodies, {}, &RunBody::body);
   for (const HapticTouch& touch : cycle.touches) {

@@ -13,7 +13,8 @@ namespace firstcontact {
 /// Writes cycles of a contact loop as steps of a run (docs/run_format.md).
 ///
 /// A tool, and each link of it that moves, is a free body of 1 kg; the clearance, contacts and
-/// poses are those of the cycle. Energies, momenta and impulses are 0: a god-object has none.
+/// poses are those of the cycle. A body whose course waited is `behind` it. Energies, momenta and
+/// impulses are 0: a god-object has none.
 class FIRSTCONTACT_API HapticRun {
  public:
   /// @param loaded  a scene that was prepared
@@ -28,7 +29,8 @@ class FIRSTCONTACT_API HapticRun {
  private:
   RunHeader header_;
   std::vector<std::size_t> bodies_;
-  double time_ = 0.0;  // [s]
+  double time_ = 0.0;    // [s]
+  double behind_ = 0.0;  // [s]  Of all courses: so long they waited for a tool.
   std::size_t count_ = 0;
 };
 

@@ -52,6 +52,8 @@ inline constexpr double kBendOfCourse = 0.5;
 inline constexpr double kSlackOfRoom = 0.1;
 /// [-]  Then they go on for this part of the time, and are tried again.
 inline constexpr double kShareWithoutRoom = 0.25;
+/// [-]  ...until less than this part of it: then they wait until the cycle ends.
+inline constexpr double kLeastShareOfCourses = 0.02;
 /// [-]  So does a part of a round in which a course bends away from any of 10,000 straight lines.
 inline constexpr double kShareOfWildCourse = 1e-4;
 /// [-]  Of a round: what is left of it after the courses are over counts from here on.

@@ -19,7 +19,7 @@ double ContactLoop::Implementation::straight_slot(double slot) const {
   const double begin = time_ + now_;
   const double from = share(begin);
   const double to = share(begin + slot);
-  if (bends_.empty() || !(from < to)) {
+  if (wait_from_ || bends_.empty() || !(from < to)) {
     return slot;
   }
   const std::vector<double> ends =
@@ -37,7 +37,7 @@ double ContactLoop::Implementation::straight_slot(double slot) const {
 void ContactLoop::Implementation::set_courses(double slot) {
   for (std::size_t m = tools(); m < first_link(); ++m) {
     courses_[m] = {};
-    if (has_course(m)) {
+    if (has_course(m) && !wait_from_) {
       const Motion& course = *body_of(m).course;
       const double from = share(time_ + now_);
       const double to = share(time_ + now_ + slot);
@@ -144,6 +144,7 @@ double ContactLoop::Implementation::execute_piece(const detail::ToolDisplacement
 
 void ContactLoop::Implementation::begin_cycle(double dt) {
   now_ = 0.0;
+  wait_from_.reset();
   may_part_ = true;
   cycle_.index += 1;
   cycle_.asked = dt;
@@ -163,8 +164,17 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   }
 }
 
-/// All members rest until the end of the cycle.
+/// Courses wait for the rest of the cycle, if it has one: only tools move in it.
+void ContactLoop::Implementation::begin_wait() {
+  wait_from_ = now_;
+  are_courses_moving_ = false;
+}
+
+/// All members rest until the end of the cycle. Courses that are not over wait.
 void ContactLoop::Implementation::rest_until(double dt) {
+  if (are_courses_moving_ && now_ < dt) {
+    begin_wait();
+  }
   if (now_ < dt) {
     for (const HapticMemberMotion& motion : cycle_.members) {
       append_piece(motion.member, {}, 0.0, dt);
@@ -191,7 +201,7 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
   find_contacts();
   for (HapticTouch& touch : touches_) {
     HapticContact& contact = touch.contact;
-    if (contact.body >= 0 && now_ > 0.0) {
+    if (contact.body >= 0) {
       const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
       contact.surface_velocity.setZero();
       for (const HapticMemberMotion& motion : cycle_.members) {
@@ -207,8 +217,8 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
       }
     }
   }
-  cycle_.lasted = now_;
-  time_ += now_;
+  cycle_.lasted = wait_from_.value_or(dt);
+  time_ += cycle_.lasted;
   for (HapticMemberMotion& motion : cycle_.members) {
     motion.X_WB = poses_[motion.member];
   }
@@ -245,7 +255,8 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
     find_contacts();
     const bool is_last = round + 1 == options_.rounds;
     const double straight = straight_slot(left);
-    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * part * straight;
+    const double share = are_courses_moving_ ? part : 1.0;
+    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
     detail::GodObjectPlan plan = plan_round(ways);
@@ -265,6 +276,9 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
     if (are_courses_moving_ &&
         !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
       part *= detail::kShareWithoutRoom;
+      if (part < detail::kLeastShareOfCourses) {
+        begin_wait();
+      }
       continue;
     }
     if (touches_.empty() && !is_last && plan.part < 1.0) {  // The rest has time of its own.
@@ -284,9 +298,7 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
       goes_on = true;
     }
   }
-  if (!are_courses_moving_) {
-    rest_until(dt);
-  }
+  rest_until(dt);
   end_cycle(dt, stamp_ns);
   return cycle_;
 }

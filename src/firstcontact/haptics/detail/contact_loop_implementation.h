@@ -100,6 +100,7 @@ class ContactLoop::Implementation {
   double execute_piece(const detail::ToolDisplacements& ways, double slot, double dt,
                        const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);
+  void begin_wait();
   void rest_until(double dt);
   void end_cycle(double dt, std::int64_t stamp_ns);
   void publish(std::int64_t stamp_ns);
@@ -133,7 +134,8 @@ class ContactLoop::Implementation {
   bool is_parting_ = false;      // The plan only parts.
   double rest_clearance_ = 0.0;  // [m]  Proven where the members are.
   bool are_courses_moving_ = false;
-  double now_ = 0.0;  // [s]  Since the cycle began.
+  double now_ = 0.0;                      // [s]  Since the cycle began.
+  std::optional<double> wait_from_ = {};  // [s]  Since then; where courses wait from then on.
   HapticCycle cycle_;
 };
 
