@@ -252,18 +252,6 @@ TEST(ContactLoop, MakesCoursesWaitWhereTheyWouldCrushATool) {
   EXPECT_GT(loop.pose(1).position.x(), -0.02);
 }
 
-/// A cube on a plate that rises to a ceiling in half a second: there is room for the cube only.
-HapticScene cube_in_a_press() {
-  HapticScene scene;
-  scene.tools.push_back(tool_at("cube", make_box({0.03, 0.03, 0.03}), {0.003, 0.0, 0.045}));
-  HapticBody plate = body_at("plate", make_box({0.2, 0.2, 0.02}), Vector3d::Zero());
-  plate.course = Motion::constant_velocity(plate.X_WB, Vector3d(0.0, 0.0, 0.03));
-  scene.bodies.push_back(plate);
-  scene.bodies.push_back(body_at("ceiling", make_box({0.2, 0.2, 0.02}), {0.0, 0.0, 0.08}));
-  scene.duration = 0.5;
-  return scene;
-}
-
 TEST(ContactLoop, LetsAToolOutBetweenBodiesThatWaitForIt) {
   ContactLoop loop(cube_in_a_press());
   const Vector3d middle(0.003, 0.0, 0.05);

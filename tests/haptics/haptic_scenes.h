@@ -9,6 +9,7 @@
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/haptics/haptic_scene.h>
+#include <firstcontact/motion/motion.h>
 
 namespace firstcontact {
 
@@ -58,6 +59,18 @@ inline HapticScene peg_over_hole(double clearance, double friction = 0.0) {
   scene.bodies.push_back(
       body_at("ground", make_box({0.2, 0.2, 0.02}), {0.0, 0.0, -0.0701}, friction));
   scene.contact_distance = 2e-6;
+  return scene;
+}
+
+/// A cube on a plate that rises to a ceiling in half a second: there is room for the cube only.
+inline HapticScene cube_in_a_press() {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("cube", make_box({0.03, 0.03, 0.03}), {0.003, 0.0, 0.045}));
+  HapticBody plate = body_at("plate", make_box({0.2, 0.2, 0.02}), {0.0, 0.0, 0.0});
+  plate.course = Motion::constant_velocity(plate.X_WB, Eigen::Vector3d(0.0, 0.0, 0.03));
+  scene.bodies.push_back(plate);
+  scene.bodies.push_back(body_at("ceiling", make_box({0.2, 0.2, 0.02}), {0.0, 0.0, 0.08}));
+  scene.duration = 0.5;
   return scene;
 }
 

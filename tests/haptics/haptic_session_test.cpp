@@ -219,6 +219,48 @@ TEST(HapticSession, SwingsNoMoreAtACornerThanTheEncoderDoes) {
   EXPECT_LE(swing_at_a_corner(1e-5), 0.0101);
 }
 
+bool is_unsolved(const ForceTick& tick) {
+  return (tick.tools[0].faults & static_cast<std::uint32_t>(ForceFault::unsolved)) != 0;
+}
+
+// A cube that is pressed into the corner of a floor and a wall, and tilted: a few ticks need more
+// pivots than a tick has.
+TEST(HapticSession, DoesNotKickWhereATickIsUnsolved) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("cube", make_box({0.03, 0.03, 0.03}), {0.0, 0.0, 0.05}, 0.4));
+  scene.tools[0].coupling.angular_stiffness = 0.2;
+  scene.bodies.push_back(body_at("floor", make_box({0.4, 0.4, 0.02}), {0.0, 0.0, 0.0}, 0.4));
+  scene.bodies.push_back(body_at("wall", make_box({0.02, 0.4, 0.4}), {0.03, 0.0, 0.2}, 0.4));
+  HapticSession session(scene);
+  Sampled sampled;
+  Vector3d last = Vector3d::Zero();
+  int unsolved = 0;
+  for (int k = 0; k < 3600; ++k) {
+    const double angle = 2.0 * std::numbers::pi * 2.5e-4 * k;
+    DeviceState state = sampled({0.008 + 0.006 * std::cos(angle), 0.003 * std::sin(2.0 * angle),
+                                 -0.025 + 0.008 * std::sin(angle)},
+                                session.time_ns());
+    const Vector3d axis(std::sin(angle), std::cos(angle), 0.0);
+    state.X_DH.rotation = Eigen::AngleAxisd(0.1, axis);
+    const ForceTick& tick = session.step(std::array{state});
+    const Vector3d& force = tick.tools[0].command.force_D;
+    ASSERT_LE((force - last).norm(), 0.5) << k;
+    unsolved += is_unsolved(tick) ? 1 : 0;
+    last = force;
+  }
+  EXPECT_GT(unsolved, 0);
+}
+
+// Surfaces that squeeze a tool contradict each other. Nothing holds it sideways.
+TEST(HapticSession, FeelsNoForceAlongSurfacesThatSqueeze) {
+  HapticSession session(cube_in_a_press());
+  Sampled sampled;
+  for (int k = 0; k < 3000; ++k) {
+    const ForceTick& tick = session.step(std::array{sampled(Vector3d::Zero(), session.time_ns())});
+    ASSERT_LE(tick.tools[0].command.force_D.head<2>().norm(), 0.01) << k;
+  }
+}
+
 TEST(HapticSession, RefusesRatesOutOfRange) {
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),

@@ -268,9 +268,6 @@ class ForceLoop::Implementation {
           frames_.joint_weights[joint] * (tick_.joint_targets[joint] - set.joints[joint]);
     }
     detail::ConeProjectionResult found = cone_.project(wanted, options_.tolerance, options_.pivots);
-    if (links_->joints().empty()) {
-      return found;
-    }
     if (found.is_solved) {
       solved_ = found.force;
     } else if (found.pressing > 0) {
@@ -412,7 +409,7 @@ class ForceLoop::Implementation {
   detail::ConeProjection cone_;
   detail::ToolFrames frames_;
   std::vector<detail::FeltTool> tools_;
-  std::optional<Coordinates> solved_ = {};  // [m]  Of tools with joints: the last since they touch.
+  std::optional<Coordinates> solved_ = {};  // [m]  The last force since tools touch.
   std::uint64_t taken_ = 0;
   bool has_ticked_ = false;
   ForceTick tick_;

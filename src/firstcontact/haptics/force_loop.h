@@ -115,8 +115,9 @@ struct ForceTick {
 /// damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is that of
 /// its own spring likewise.
 ///
-/// Contacts may contradict each other (ForceFault::unsolved). Tools with joints keep the last force
-/// that was solved then. It is cut to the length of the springs' stretch, plus the way of surfaces.
+/// Contacts may contradict each other, or need more pivots (ForceFault::unsolved). Then the last
+/// force stays that was solved. It is cut to the length of the springs' stretch, plus the way of
+/// surfaces.
 ///
 /// tick() allocates nothing, takes no lock, and makes no system call; its work is bounded.
 class FIRSTCONTACT_API ForceLoop {
