@@ -457,6 +457,25 @@ TEST(Grip, NothingActsOnceTheDeviceIsLostOrMakesNoSense) {
   EXPECT_NEAR(session.joint(0), held, 1e-6);  // The fingers stay.
 }
 
+// What pushes a finger while the clutch is pressed displaces it for that time only.
+TEST(Grip, FingersStayWhereTheClutchFoundThem) {
+  DeviceMapping mapping = one_grip();
+  mapping.clutch_button = 0;
+  const HapticScene scene = grip_scene(gripper());
+  ForceLoop forces(scene, {mapping});
+  HapticContactSet set;
+  set.sequence = 1;
+  DeviceState device;
+  device.status = DeviceStatus::live;
+  device.grips[0] = 0.5;
+  (void)forces.tick(0, set, std::array{device});
+  device.buttons = 1;
+  set.joints[0] = 0.4;
+  EXPECT_EQ(forces.tick(250'000, set, std::array{device}).joint_targets[0], 0.4);
+  set.joints[0] = 0.1;
+  EXPECT_EQ(forces.tick(500'000, set, std::array{device}).joint_targets[0], 0.4);
+}
+
 // As the force does: by its slew, 2000 of the limit of 1 J a second.
 TEST(Grip, EffortsEndBySlewAtTheClutch) {
   DeviceMapping mapping = one_grip(kJawWay);

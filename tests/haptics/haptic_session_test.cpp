@@ -13,6 +13,7 @@
 
 #include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/motion/motion.h>
 
 #include "haptics/haptic_scenes.h"
 
@@ -258,6 +259,38 @@ TEST(HapticSession, FeelsNoForceAlongSurfacesThatSqueeze) {
   for (int k = 0; k < 3000; ++k) {
     const ForceTick& tick = session.step(std::array{sampled(Vector3d::Zero(), session.time_ns())});
     ASSERT_LE(tick.tools[0].command.force_D.head<2>().norm(), 0.01) << k;
+  }
+}
+
+/// A cube on a floor that rises by 2 cm in 50 ms, and returns in as much time.
+HapticScene cube_on_a_stamp() {
+  HapticScene scene = cube_on_floor();
+  const Pose low = scene.bodies[0].X_WB;
+  Pose high = low;
+  high.position.z() += 0.02;
+  scene.bodies[0].course =
+      Motion::waypoints(std::vector{0.0, 0.5, 0.75, 1.0}, std::vector<Pose>{low, low, high, low});
+  scene.duration = 0.2;
+  return scene;
+}
+
+TEST(HapticSession, ToolStaysWhereItsDeviceWasLostOrClutched) {
+  for (const bool is_lost : {true, false}) {
+    HapticSession session(cube_on_a_stamp(), {.mappings = {{.clutch_button = 0}}});
+    const double start = session.contacts().pose(0).position.z();
+    Sampled sampled;
+    double highest = start;
+    for (int k = 0; k < 1200; ++k) {
+      DeviceState state = sampled(Vector3d::Zero(), session.time_ns());
+      if (k >= 100) {
+        state.status = is_lost ? DeviceStatus::lost : DeviceStatus::live;
+        state.buttons = is_lost ? 0U : 1U;
+      }
+      (void)session.step(std::array{state});
+      highest = std::max(highest, session.contacts().pose(0).position.z());
+    }
+    EXPECT_GT(highest, start + 0.009) << is_lost;
+    EXPECT_NEAR(session.contacts().pose(0).position.z(), start, 1e-6) << is_lost;
   }
 }
 

@@ -44,13 +44,15 @@ void GripFollower::follow(const DeviceState& device, bool is_engaged, const Hapt
                           double seconds, std::array<double, kMostGrips>& values,
                           std::array<double, kMostHapticJoints>& targets) noexcept {
   if (!is_engaged) {
-    for (std::size_t joint = 0; joint < links_->joints().size() && set.sequence > 0; ++joint) {
-      if (links_->tool_of_joint(joint) == tool_) {
+    for (std::size_t joint = 0; joint < links_->joints().size() && was_engaged_; ++joint) {
+      if (links_->tool_of_joint(joint) == tool_ && set.sequence > 0) {
         targets[joint] = set.joints[joint];
       }
     }
+    was_engaged_ = false;
     return;
   }
+  was_engaged_ = true;
   for (std::size_t k = 0; k < grips_.size(); ++k) {
     const GripMapping& grip = grips_[k];
     if (grip.button < 0) {

@@ -27,8 +27,8 @@ class GripFollower {
   /// @param links  outlives it
   GripFollower(const std::vector<GripMapping>& grips, std::size_t tool, const ToolLinks& links);
 
-  /// While the device is not engaged, joints are wanted where the god-object has them, and grips by
-  /// buttons stay.
+  /// While the device is not engaged, joints are wanted where the god-object had them when the
+  /// engagement ended, and grips by buttons stay.
   ///
   /// @param seconds  since the last tick.
   /// @param values   takes the values of the grips.
@@ -48,6 +48,7 @@ class GripFollower {
   std::size_t tool_ = 0;
   const ToolLinks* links_ = nullptr;
   std::array<double, kMostGrips> values_{};
+  bool was_engaged_ = false;
 };
 
 }  // namespace firstcontact::detail

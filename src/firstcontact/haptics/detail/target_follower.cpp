@@ -77,17 +77,25 @@ void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
              (turn_by(turn) * god_object.rotation.normalized()).normalized()};
 }
 
+/// The target stays where the god-object is when the engagement ends. What pushes the tool on from
+/// there moves it only as long as it touches.
+void TargetFollower::disengage(bool was_engaged, const Pose& god_object) noexcept {
+  held_ = was_engaged ? god_object : held_;
+  target_ = held_;
+  is_engaged_ = false;
+}
+
 void TargetFollower::follow(const DeviceState& device, const Pose& god_object, double seconds,
                             std::int64_t now_ns) noexcept {
+  const bool was_engaged = is_engaged_;
   faults_ = faults_of(device);
   if (faults_ != 0) {
     // A lost device keeps its references: where it is means the same when it comes back.
     is_rebased_ = is_rebased_ || faults_ == static_cast<std::uint32_t>(ForceFault::disengaged);
-    is_engaged_ = false;
-    target_ = god_object;
+    disengage(was_engaged, god_object);
     return;
   }
-  if (!is_engaged_) {
+  if (!was_engaged) {
     is_engaged_ = true;
     since_ns_ = now_ns;
     const bool takes_handle = !has_begun_ && mapping_.begins_at_handle;
@@ -109,8 +117,7 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object, d
   if (!target_.position.allFinite() || !(target_.rotation.squaredNorm() > 0.0)) {
     // Scale and place may be finite and their product not.
     faults_ = static_cast<std::uint32_t>(ForceFault::not_finite);
-    is_engaged_ = false;
-    target_ = god_object;
+    disengage(was_engaged, god_object);
   }
 }
 

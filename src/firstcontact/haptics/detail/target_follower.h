@@ -16,7 +16,7 @@ namespace firstcontact::detail {
 class TargetFollower {
  public:
   TargetFollower(const DeviceMapping& mapping, const Pose& X_WB)
-      : mapping_(mapping), X_DH_(mapping.X_DH), X_WB_(X_WB), target_(X_WB) {}
+      : mapping_(mapping), X_DH_(mapping.X_DH), X_WB_(X_WB), target_(X_WB), held_(X_WB) {}
 
   /// @param god_object  where it is
   /// @param seconds     since the last tick
@@ -32,12 +32,14 @@ class TargetFollower {
  private:
   [[nodiscard]] std::uint32_t faults_of(const DeviceState& device) const noexcept;
   [[nodiscard]] Pose mapped(const Pose& X_DH) const noexcept;
+  void disengage(bool was_engaged, const Pose& god_object) noexcept;
   void drive(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
   DeviceMapping mapping_;
   Pose X_DH_;  // References.
   Pose X_WB_;
   Pose target_;
+  Pose held_;  // The target while it is not engaged.
   bool is_engaged_ = false;
   bool has_begun_ = false;
   bool is_rebased_ = false;  // At the next engagement: the clutch was used.
