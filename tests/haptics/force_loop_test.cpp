@@ -12,6 +12,7 @@
 
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/haptic_session.h>
 
 #include "haptics/haptic_scenes.h"
 
@@ -112,6 +113,42 @@ TEST(ForceLoop, KeepsItsLimits) {
   EXPECT_TRUE(has(tick, ForceFault::limited));
 }
 
+/// A cube that turns about a point beside its middle, pressed on the floor by an edge.
+ToolTick pressed_by_an_edge(const HapticLimits& limits) {
+  HapticScene scene = cube_on_floor();
+  scene.tools[0].p_BC = {0.02, 0.0, 0.0};
+  ForceLoopOptions options;
+  options.limits = limits;
+  HapticSession session(scene, {.forces = options});
+  DeviceState device = handle_at({0.0, 0.0, -0.02});
+  device.X_DH.rotation = Eigen::AngleAxisd(0.1, Vector3d::UnitY());
+  ToolTick last;
+  for (int k = 0; k < 2 * kRamp; ++k) {
+    last = session.step(std::array{device}).tools[0];
+  }
+  return last;
+}
+
+// A force that is cut has less torque, or it is not one of the contacts.
+TEST(ForceLoop, LimitsKeepTheWrenchOneOfContacts) {
+  const ToolTick whole = pressed_by_an_edge({.force = 1e3, .torque = 1e3});
+  const double force = whole.force_W.norm();
+  const double torque = whole.torque_W.norm();
+  ASSERT_GT(torque, 0.05);
+  const auto require = [&](const HapticLimits& limits, double part) {
+    const ToolTick cut = pressed_by_an_edge(limits);
+    EXPECT_TRUE(has(cut, ForceFault::limited));
+    EXPECT_LT((cut.force_W - part * whole.force_W).norm(), 1e-6 * force);
+    EXPECT_LT((cut.torque_W - part * whole.torque_W).norm(), 1e-6 * torque);
+  };
+  require({.force = 0.3 * force, .torque = torque}, 0.3);
+  require({.force = force, .torque = 0.2 * torque}, 0.2);
+  // A device without torque has its force nevertheless.
+  const ToolTick cut = pressed_by_an_edge({.force = 0.3 * force, .torque = 0.0});
+  EXPECT_LT((cut.force_W - 0.3 * whole.force_W).norm(), 1e-6 * force);
+  EXPECT_EQ(cut.torque_W, Vector3d::Zero());
+}
+
 TEST(ForceLoop, IsZeroAtOnceForNaNAndForALostDevice) {
   OnTheFloor felt;
   EXPECT_GT(felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp).command.force_D.norm(), 1.0);
@@ -146,6 +183,36 @@ TEST(ForceLoop, DecaysToZeroWithTheAgeOfTheSet) {
     if (age >= 150'000'000) {
       ASSERT_EQ(force, 0.0);
     }
+  }
+}
+
+TEST(ForceLoop, GrowsToItsLimitOverTheRampHoweverDeepTheDeviceStarts) {
+  for (const double depth : {0.02, 1.0}) {
+    OnTheFloor felt;
+    const DeviceState device = handle_at({0.0, 0.0, -0.01 - depth});
+    EXPECT_NEAR(felt.ticks(device, 400).command.force_D.z(), 5.0, 0.05) << depth;
+    EXPECT_NEAR(felt.ticks(device, 400).command.force_D.z(), 10.0, 0.05) << depth;
+  }
+}
+
+// A set comes after the last one was stale: the force grows again from what it was then.
+TEST(ForceLoop, DoesNotKickWhereSetsComeAgain) {
+  for (const std::int64_t pause : {100'000'000, 300'000'000}) {
+    OnTheFloor felt;
+    const DeviceState device = handle_at({0.0, 0.0, -0.016});
+    (void)felt.ticks(device, kRamp);
+    double last = 0.0;
+    for (const std::int64_t end = felt.now + pause; felt.now < end;) {
+      felt.now += kTick;
+      last = felt.forces.tick(felt.now, felt.set, std::array{device}).tools[0].force_W.z();
+    }
+    EXPECT_NEAR(last, pause < 200'000'000 ? 3.0 : 0.0, 0.05);
+    for (int k = 0; k < kRamp; ++k) {
+      const double force = felt.tick(device).force_W.z();
+      ASSERT_LE(force, last + 0.01) << pause << ", " << k;
+      last = force;
+    }
+    EXPECT_NEAR(last, 6.0, 0.03);
   }
 }
 

@@ -76,23 +76,40 @@ void check_options(const HapticScene& scene, const std::vector<DeviceMapping>& m
           "ForceLoopOptions: tolerance and pivots must be > 0");
 }
 
-/// Cuts a vector to a length.
-bool cut_to(double most, Vector3d& vector) noexcept {
+/// A force and its torque about a point.
+struct Wrench {
+  Vector3d force = Vector3d::Zero();   // [N]
+  Vector3d torque = Vector3d::Zero();  // [N m]
+};
+
+/// [-]  The part of a vector that is no longer than `most`.
+double part_within(double most, const Vector3d& vector) noexcept {
   const double length = vector.norm();
-  if (!(length > most)) {
-    return false;
-  }
-  vector *= most / length;
-  return true;
+  return length > most ? most / length : 1.0;
 }
 
-/// Lets a vector change by no more than a length.
-bool slew_to(double most, const Vector3d& before, Vector3d& vector) noexcept {
-  Vector3d change = vector - before;
-  if (!cut_to(most, change)) {
+/// Cuts both by the same part: a wrench of contacts stays one. What a limit of 0 forbids is left
+/// out instead, as a device without torque has its force nevertheless.
+bool cut_to(double force, double torque, Wrench& wrench) noexcept {
+  const double by_force = force > 0.0 ? part_within(force, wrench.force) : 1.0;
+  const double by_torque = torque > 0.0 ? part_within(torque, wrench.torque) : 1.0;
+  const double part = std::min(by_force, by_torque);
+  const bool is_left_out = (!(force > 0.0) && !wrench.force.isZero(0.0)) ||
+                           (!(torque > 0.0) && !wrench.torque.isZero(0.0));
+  wrench.force *= force > 0.0 ? part : 0.0;
+  wrench.torque *= torque > 0.0 ? part : 0.0;
+  return part < 1.0 || is_left_out;
+}
+
+/// Lets a wrench change by no more, and in its direction.
+bool slew_to(double force, double torque, const Wrench& before, Wrench& wrench) noexcept {
+  const Vector3d change = wrench.force - before.force;
+  const Vector3d turn = wrench.torque - before.torque;
+  const double part = std::min(part_within(force, change), part_within(torque, turn));
+  if (!(part < 1.0)) {
     return false;
   }
-  vector = before + change;
+  wrench = {before.force + part * change, before.torque + part * turn};
   return true;
 }
 
@@ -116,6 +133,8 @@ struct FeltTool {
   bool has_last = false;
   Vector3d velocity = Vector3d::Zero();  // [m/s]  Of the target, smoothed.
   Vector3d turning = Vector3d::Zero();   // [rad/s]
+  bool is_felt = false;                  // It was engaged in the last tick.
+  double share = 0.0;                    // [-]  The part of its limited force that acts.
 };
 
 }  // namespace detail
@@ -169,7 +188,7 @@ class ForceLoop::Implementation {
       ToolTick& tick = tick_.tools[k];
       tick.device = devices[k];
       const Pose& god_object = set.sequence > 0 ? set.X_WB[k] : tick.target;
-      tools_[k].follower.follow(devices[k], god_object, seconds, now_ns);
+      tools_[k].follower.follow(devices[k], god_object, seconds);
       tick.target = tools_[k].follower.target();
       tick.faults = tools_[k].follower.faults();
       tools_[k].grips.follow(devices[k], tools_[k].follower.is_engaged(), set, seconds, tick.grips,
@@ -183,6 +202,7 @@ class ForceLoop::Implementation {
       if (!projected.is_solved && cone_.size() > 0) {
         tick_.tools[k].faults |= bit(ForceFault::unsolved);
       }
+      set_share(tools_[k], seconds, tick_.tools[k].faults);
       give_force(k, projected.force, seconds);
       give_efforts(k, projected.force, seconds);
     }
@@ -298,24 +318,34 @@ class ForceLoop::Implementation {
     }
   }
 
-  /// [-]  The part of the spring's force that acts.
-  [[nodiscard]] double share_of(const detail::FeltTool& tool,
-                                std::uint32_t& faults) const noexcept {
+  /// [-]  The part of a force that the age of the set allows.
+  [[nodiscard]] double share_of_age() const noexcept {
     const HapticLimits& limits = options_.limits;
-    double share = 1.0;
-    const std::int64_t since = tick_.time_ns - tool.follower.engaged_since_ns();
-    if (since < limits.ramp_ns) {
-      share = static_cast<double>(since) / static_cast<double>(limits.ramp_ns);
-      faults |= bit(ForceFault::ramping);
+    if (tick_.age_ns <= limits.fresh_ns) {
+      return 1.0;
     }
-    if (tick_.age_ns > limits.fresh_ns) {
-      faults |= bit(ForceFault::stale);
-      share *= tick_.age_ns >= limits.stale_ns
-                   ? 0.0
-                   : static_cast<double>(limits.stale_ns - tick_.age_ns) /
-                         static_cast<double>(limits.stale_ns - limits.fresh_ns);
+    return tick_.age_ns >= limits.stale_ns
+               ? 0.0
+               : static_cast<double>(limits.stale_ns - tick_.age_ns) /
+                     static_cast<double>(limits.stale_ns - limits.fresh_ns);
+  }
+
+  /// The share falls at once. It grows by the ramp: after an engagement, and where a set is fresh
+  /// again.
+  void set_share(detail::FeltTool& tool, double seconds, std::uint32_t& faults) const noexcept {
+    if (!tool.follower.is_engaged()) {
+      tool.is_felt = false;
+      tool.share = 0.0;
+      return;
     }
-    return share;
+    const double ramp = kNanosecond * static_cast<double>(options_.limits.ramp_ns);
+    const double growth = tool.is_felt ? seconds : 0.0;
+    const double grown = ramp > 0.0 ? tool.share + growth / ramp : 1.0;
+    const double allowed = share_of_age();
+    faults |= allowed < 1.0 ? bit(ForceFault::stale) : 0U;
+    faults |= grown < allowed ? bit(ForceFault::ramping) : 0U;
+    tool.share = std::min(grown, allowed);
+    tool.is_felt = true;
   }
 
   /// Whether a force would reach a device that is lost, or is no number.
@@ -325,6 +355,24 @@ class ForceLoop::Implementation {
     return (tick.faults & kAtOnce) != 0;
   }
 
+  /// What contacts add to a tool, about the target's origin.
+  [[nodiscard]] Wrench wrench_of(std::size_t k, const Coordinates& force) const noexcept {
+    const detail::FeltTool& tool = tools_[k];
+    Wrench wrench;
+    if (!tool.follower.is_engaged()) {
+      return wrench;
+    }
+    // Coordinates are weights times metres, and a unit of force is the first tool's stiffness.
+    const double factor = tool.stiffness / frames_.weights[k];
+    for (int i = 0; i < 3; ++i) {
+      const auto at = 6 * k + static_cast<std::size_t>(i);
+      wrench.force[i] = factor * force[at];
+      wrench.torque[i] = factor * frames_.lengths[k] * force[at + 3];
+    }
+    wrench.torque += (tool.follower.target().rotation * tool.p_BC).cross(wrench.force);
+    return wrench;
+  }
+
   void give_force(std::size_t k, const Coordinates& force, double seconds) noexcept {
     ToolTick& tick = tick_.tools[k];
     const detail::FeltTool& tool = tools_[k];
@@ -332,36 +380,22 @@ class ForceLoop::Implementation {
       set_force(tick, tool, Vector3d::Zero(), Vector3d::Zero());
       return;
     }
-    Vector3d at_centre = Vector3d::Zero();
-    Vector3d about_centre = Vector3d::Zero();
-    if (tool.follower.is_engaged()) {
-      // Coordinates are weights times metres, and a unit of force is the first tool's stiffness.
-      const double factor = share_of(tool, tick.faults) * tool.stiffness / frames_.weights[k];
-      for (int i = 0; i < 3; ++i) {
-        const auto at = 6 * k + static_cast<std::size_t>(i);
-        at_centre[i] = factor * force[at];
-        about_centre[i] = factor * frames_.lengths[k] * force[at + 3];
-      }
-    }
-    Vector3d force_W = at_centre;
-    Vector3d torque_W = about_centre + (tick.target.rotation * tool.p_BC).cross(at_centre);
     const HapticLimits& limits = options_.limits;
+    Wrench wrench = wrench_of(k, force);
     // Limits are those of the device, which feels the force times the scale.
-    const bool is_limited = static_cast<int>(cut_to(limits.force / tool.scale, force_W)) +
-                                static_cast<int>(cut_to(limits.torque, torque_W)) >
-                            0;
+    const bool is_limited = cut_to(limits.force / tool.scale, limits.torque, wrench);
+    wrench.force *= tool.share;
+    wrench.torque *= tool.share;
     const bool is_slewed =
-        static_cast<int>(slew_to(limits.force_slew * seconds / tool.scale, tick.force_W, force_W)) +
-            static_cast<int>(slew_to(limits.torque_slew * seconds, tick.torque_W, torque_W)) >
-        0;
+        slew_to(limits.force_slew * seconds / tool.scale, limits.torque_slew * seconds,
+                {tick.force_W, tick.torque_W}, wrench);
     tick.faults |= is_limited ? bit(ForceFault::limited) : 0U;
     tick.faults |= is_slewed ? bit(ForceFault::slewed) : 0U;
-    if (!force_W.allFinite() || !torque_W.allFinite()) {
+    if (!wrench.force.allFinite() || !wrench.torque.allFinite()) {
       tick.faults |= bit(ForceFault::not_finite);
-      force_W.setZero();
-      torque_W.setZero();
+      wrench = {};
     }
-    set_force(tick, tool, force_W, torque_W);
+    set_force(tick, tool, wrench.force, wrench.torque);
   }
 
   static void set_force(ToolTick& tick, const detail::FeltTool& tool, const Vector3d& force_W,
@@ -376,12 +410,10 @@ class ForceLoop::Implementation {
   void give_efforts(std::size_t k, const Coordinates& force, double seconds) noexcept {
     ToolTick& tick = tick_.tools[k];
     const detail::FeltTool& tool = tools_[k];
-    std::uint32_t faults = 0;  // The force has them already.
-    const double share = tool.follower.is_engaged() ? share_of(tool, faults) : 0.0;
     for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
       if (links_->tool_of_joint(joint) == k) {
-        const double effort = share * first_stiffness_ * frames_.joint_weights[joint] *
-                              force[links_->coordinate_of(joint)];
+        const double effort =
+            first_stiffness_ * frames_.joint_weights[joint] * force[links_->coordinate_of(joint)];
         tick_.joint_efforts[joint] = std::isfinite(effort) ? effort : 0.0;
       }
     }
@@ -393,6 +425,7 @@ class ForceLoop::Implementation {
         effort = std::clamp(effort, -most, most);
         tick.faults |= bit(ForceFault::limited);
       }
+      effort *= tool.share;
       const double before = tick.command.grips[grip];
       if (!ends_at_once(tick) && std::abs(effort - before) > kSlew * most * seconds) {
         effort =
@@ -400,6 +433,9 @@ class ForceLoop::Implementation {
         tick.faults |= bit(ForceFault::slewed);
       }
       tick.command.grips[grip] = effort;
+    }
+    for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
+      tick_.joint_efforts[joint] *= links_->tool_of_joint(joint) == k ? tool.share : 1.0;
     }
   }
 

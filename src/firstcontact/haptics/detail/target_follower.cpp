@@ -85,8 +85,8 @@ void TargetFollower::disengage(bool was_engaged, const Pose& god_object) noexcep
   is_engaged_ = false;
 }
 
-void TargetFollower::follow(const DeviceState& device, const Pose& god_object, double seconds,
-                            std::int64_t now_ns) noexcept {
+void TargetFollower::follow(const DeviceState& device, const Pose& god_object,
+                            double seconds) noexcept {
   const bool was_engaged = is_engaged_;
   faults_ = faults_of(device);
   if (faults_ != 0) {
@@ -97,7 +97,6 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object, d
   }
   if (!was_engaged) {
     is_engaged_ = true;
-    since_ns_ = now_ns;
     const bool takes_handle = !has_begun_ && mapping_.begins_at_handle;
     if (is_rebased_ || takes_handle) {
       X_DH_ = {device.X_DH.position, device.X_DH.rotation.normalized()};

@@ -20,12 +20,10 @@ class TargetFollower {
 
   /// @param god_object  where it is
   /// @param seconds     since the last tick
-  void follow(const DeviceState& device, const Pose& god_object, double seconds,
-              std::int64_t now_ns) noexcept;
+  void follow(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
   [[nodiscard]] const Pose& target() const noexcept { return target_; }
   [[nodiscard]] bool is_engaged() const noexcept { return is_engaged_; }
-  [[nodiscard]] std::int64_t engaged_since_ns() const noexcept { return since_ns_; }
   [[nodiscard]] std::uint32_t faults() const noexcept { return faults_; }
   [[nodiscard]] const DeviceMapping& mapping() const noexcept { return mapping_; }
 
@@ -43,7 +41,6 @@ class TargetFollower {
   bool is_engaged_ = false;
   bool has_begun_ = false;
   bool is_rebased_ = false;  // At the next engagement: the clutch was used.
-  std::int64_t since_ns_ = 0;
   std::uint32_t faults_ = 0;
 };
 
