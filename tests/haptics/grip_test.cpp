@@ -410,6 +410,7 @@ TEST(Grip, EffortsOfContactsThatContradictEachOtherStayWithinTheSprings) {
     set.count = k < 200 ? 1 : 2;
     set.sequence += 1;
     set.stamp_ns = now_ns;
+    set.lasted_ns = 0;
     now_ns += 250'000;
     const ForceTick& tick = forces.tick(now_ns, set, std::array{device});
     const auto unsolved = static_cast<std::uint32_t>(ForceFault::unsolved);

@@ -294,6 +294,29 @@ TEST(HapticSession, ToolStaysWhereItsDeviceWasLostOrClutched) {
   }
 }
 
+// A floor that rises at a constant rate pushes a cube that the hand holds still. What is felt is
+// where the floor is now, neither a cycle before nor after it.
+TEST(HapticSession, FeelsSurfacesWhereTheyAreNow) {
+  constexpr double kSpeed = 0.1;  // [m/s]
+  for (const double rate : {1000.0, 100.0}) {
+    HapticScene scene = cube_on_floor();
+    scene.bodies[0].course =
+        Motion::constant_velocity(scene.bodies[0].X_WB, Vector3d(0.0, 0.0, 0.5 * kSpeed));
+    scene.duration = 0.5;
+    HapticSession session(
+        scene, {.contact_rate = rate, .forces = {.limits = {.force = 100.0, .ramp_ns = 0}}});
+    const double rest = 1.375 * session.contacts().contact_distance();
+    for (int k = 0; k < 1600; ++k) {
+      const double seconds = 1e-9 * static_cast<double>(session.time_ns());
+      const ForceTick& tick = session.step(std::array{live_at(Vector3d::Zero())});
+      const double expected = 1000.0 * (kSpeed * seconds + rest - 0.01);
+      if (expected > 1.0) {
+        ASSERT_NEAR(tick.tools[0].command.force_D.z(), expected, 0.01) << rate << ", " << k;
+      }
+    }
+  }
+}
+
 TEST(HapticSession, RefusesRatesOutOfRange) {
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),

@@ -35,6 +35,7 @@ std::uint64_t checksum_of(const HapticContactSet& set) noexcept {
   WordMixer mixer;
   mixer.add(set.sequence);
   mixer.add(static_cast<std::uint64_t>(set.stamp_ns));
+  mixer.add(static_cast<std::uint64_t>(set.lasted_ns));
   mixer.add((std::uint64_t{set.tools} << 32) | set.count);
   mixer.add(std::uint64_t{set.full_count});
   mixer.add(set.angle);

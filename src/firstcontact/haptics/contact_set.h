@@ -54,6 +54,7 @@ struct HapticContact {
 struct HapticContactSet {
   std::uint64_t sequence = 0;  ///< Counts the sets; 0 where nothing is published yet.
   std::int64_t stamp_ns = 0;   ///< [ns]  When the device poses were read that led here.
+  std::int64_t lasted_ns = 0;  ///< [ns]  Surfaces are where they are so long after the stamp.
   std::uint32_t tools = 0;
   std::uint32_t count = 0;       ///< Contacts that are listed.
   std::uint32_t full_count = 0;  ///< Contacts that these stand for.

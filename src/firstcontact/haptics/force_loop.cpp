@@ -252,14 +252,22 @@ class ForceLoop::Implementation {
     tool.has_last = tool.follower.is_engaged();
   }
 
+  /// [s]  How far surfaces have gone on from where a set has them; negative while its cycle is not
+  /// over. Surfaces of a set that is not fresh stop.
+  [[nodiscard]] double seconds_since(const HapticContactSet& set,
+                                     std::int64_t now_ns) const noexcept {
+    const std::int64_t most = std::max(options_.limits.fresh_ns, set.lasted_ns);
+    const std::int64_t age = std::clamp<std::int64_t>(now_ns - set.stamp_ns, 0, most);
+    return kNanosecond * static_cast<double>(age - set.lasted_ns);
+  }
+
   [[nodiscard]] detail::ConeProjectionResult project(const HapticContactSet& set,
                                                      std::int64_t now_ns) noexcept {
     if (cone_.size() == 0) {
       solved_.reset();
       return {};
     }
-    const double seconds = kNanosecond * static_cast<double>(std::clamp<std::int64_t>(
-                                             now_ns - set.stamp_ns, 0, options_.limits.fresh_ns));
+    const double seconds = seconds_since(set, now_ns);
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
       const HapticContact& contact = set.contacts[c];
       if (contact.surface_velocity != Vector3d::Zero()) {
@@ -309,7 +317,7 @@ class ForceLoop::Implementation {
     }
     double surface = 0.0;
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      surface = std::max(surface, seconds * set.contacts[c].surface_velocity.norm());
+      surface = std::max(surface, std::abs(seconds) * set.contacts[c].surface_velocity.norm());
     }
     const double most = std::sqrt(squares_of_way) + surface;
     const double length = std::sqrt(squares);

@@ -42,7 +42,7 @@ void weigh_joints(const ToolLinks& links, double stiffness_of_first_tool, ToolFr
 
 /// The rows of a contact. Its normal and two tangents make a rotation.
 ///
-/// @param seconds  since the contact was found: so far the surroundings have gone on
+/// @param seconds  from where the contact was found the surroundings have gone on for so long
 [[nodiscard]] ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
                                        double seconds) noexcept;
 

@@ -225,6 +225,7 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
   cycle_.clearance = std::max(0.0, cycle_.clearance - detail::kRoundingOfPieces * size_of_cycle());
   cycle_.contacts = touches_.size();
   cycle_.joints = joints_;
+  set_.lasted_ns = std::llround(1e9 * dt);
   publish(stamp_ns);
 }
 
