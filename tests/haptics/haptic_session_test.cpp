@@ -317,6 +317,32 @@ TEST(HapticSession, FeelsSurfacesWhereTheyAreNow) {
   }
 }
 
+// Damping is of the velocity between the two, whichever of them moves.
+TEST(HapticSession, DampsTheMotionOfSurfacesToo) {
+  constexpr double kSpeed = 0.1;    // [m/s]
+  constexpr double kDamping = 5.0;  // [N s/m]
+  for (const double of_device : {0.0, kSpeed, 2.0 * kSpeed}) {
+    HapticScene scene = cube_on_floor();
+    scene.tools[0].coupling.damping = kDamping;
+    scene.bodies[0].course =
+        Motion::constant_velocity(scene.bodies[0].X_WB, Vector3d(0.0, 0.0, 0.2 * kSpeed));
+    scene.duration = 0.2;
+    HapticSession session(scene, {.forces = {.limits = {.force = 100.0, .ramp_ns = 0}}});
+    const double rest = 1.375 * session.contacts().contact_distance();
+    for (int k = 0; k < 600; ++k) {
+      const double seconds = 1e-9 * static_cast<double>(session.time_ns());
+      const double below = 0.03 - of_device * seconds;
+      const ForceTick& tick = session.step(std::array{live_at({0.0, 0.0, -below})});
+      const double stretch = kSpeed * seconds + rest - 0.01 + below;
+      if (k > 200) {
+        ASSERT_NEAR(tick.tools[0].command.force_D.z(),
+                    1000.0 * stretch + kDamping * (kSpeed - of_device), 0.01)
+            << of_device << ", " << k;
+      }
+    }
+  }
+}
+
 TEST(HapticSession, RefusesRatesOutOfRange) {
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),

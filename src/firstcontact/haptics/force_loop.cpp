@@ -261,6 +261,11 @@ class ForceLoop::Implementation {
     return kNanosecond * static_cast<double>(age - set.lasted_ns);
   }
 
+  /// [s]  Damping looks ahead: at the target, and so at what moves below it.
+  [[nodiscard]] double felt_after(const HapticContact& contact, double seconds) const noexcept {
+    return seconds + tools_[static_cast<std::size_t>(contact.tool)].look_ahead;
+  }
+
   [[nodiscard]] detail::ConeProjectionResult project(const HapticContactSet& set,
                                                      std::int64_t now_ns) noexcept {
     if (cone_.size() == 0) {
@@ -271,7 +276,8 @@ class ForceLoop::Implementation {
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
       const HapticContact& contact = set.contacts[c];
       if (contact.surface_velocity != Vector3d::Zero()) {
-        cone_.set_shift(c, detail::cone_contact(contact, frames_, seconds).shift);
+        cone_.set_shift(c,
+                        detail::cone_contact(contact, frames_, felt_after(contact, seconds)).shift);
       }
     }
     Coordinates wanted{};
@@ -317,7 +323,9 @@ class ForceLoop::Implementation {
     }
     double surface = 0.0;
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      surface = std::max(surface, std::abs(seconds) * set.contacts[c].surface_velocity.norm());
+      const HapticContact& contact = set.contacts[c];
+      surface = std::max(surface,
+                         std::abs(felt_after(contact, seconds)) * contact.surface_velocity.norm());
     }
     const double most = std::sqrt(squares_of_way) + surface;
     const double length = std::sqrt(squares);

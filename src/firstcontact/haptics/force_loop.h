@@ -111,7 +111,7 @@ struct ForceTick {
 ///
 /// A force is that of the spring between the target and where contacts would let the god-object be:
 /// the sum of contact forces in Coulomb's cones. It is exactly 0 where no contact presses, however
-/// far the god-object lags behind. With damping the target is where the device will be after
+/// far the god-object lags behind. With damping the target and surfaces are where they will be after
 /// damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is that of
 /// its own spring likewise.
 ///
