@@ -68,6 +68,30 @@ TEST(HapticSetup, NamesWhatIsWrong) {
   expect_refused(scene_text(R"({"tools": [{"body": "peg"}]})", R"(, "dynamics": {})"), "pose");
 }
 
+/// What is wrong with a scene that can be read.
+std::string refusal(const std::string& text) {
+  Scene scene = parse_scene(text, "scene.json");
+  ShapeCache cache;
+  try {
+    prepare_haptics(scene, cache, 1.0);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// Friction of pairs, gravity and steps would be left out, and nobody would know.
+TEST(HapticSetup, RefusesWhatSimulationsAloneHave) {
+  const std::string haptics = R"({"tools": [{"body": "peg"}]})";
+  EXPECT_EQ(refusal(scene_text(haptics)), "none");
+  EXPECT_NE(refusal(scene_text(haptics + R"(, "simulation": {"step": 0.01})"))
+                .find("haptics: expected no \"simulation\""),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_text(haptics, R"(, "surface": {"restitution": 0.5})"))
+                .find("haptics: expected no \"restitution\" of \"peg\""),
+            std::string::npos);
+}
+
 TEST(HapticSetup, RefusesScenesWithoutHaptics) {
   Scene scene = parse_scene(
       R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": {"sphere": {"radius": 1}}}]})",

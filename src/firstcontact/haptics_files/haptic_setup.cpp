@@ -133,6 +133,8 @@ void prepare_haptics(Scene& scene, ShapeCache& cache, double duration, double la
     require_of_haptics(!body.free, "expected no \"dynamics\" of \"" + body.name + "\"");
     require_of_haptics(!std::holds_alternative<VertexMotion>(body.motion),
                        "expected no vertices of \"" + body.name + "\" that move");
+    require_of_haptics(!body.surface.restitution, "expected no \"restitution\" of \"" + body.name +
+                                                      "\": a tool does not bounce");
     require_of_haptics(!body.surface.velocity,
                        "expected no surface of \"" + body.name + "\" that runs along the body");
   }
@@ -140,6 +142,9 @@ void prepare_haptics(Scene& scene, ShapeCache& cache, double duration, double la
       scene.options.margin == 0.0 && scene.pair_margins.empty() && scene.group_margins.empty(),
       "expected no margins of pairs");
   detail::make_robots_bodies(scene, cache);
+  require_of_haptics(!scene.simulation,
+                     "expected no \"simulation\": none of it would be felt; \"friction\" is a key "
+                     "of \"haptics\" and of the \"surface\" of bodies");
   scene.simulation.emplace();
   for (const HapticToolQuestion& tool : question.tools) {
     scene.bodies[tool.body].free.emplace().mass = 1.0;
