@@ -220,7 +220,7 @@ class HapticsRun {
     try {
       HapticSetup setup = haptic_setup(loaded_);
       setup.options.contact_latency_ns = std::llround(1e9 * arguments_.latency.value_or(0.0));
-      // Refuses what does not begin apart, before anything is written.
+      // Refuses what both loops would refuse, before anything is written.
       distance_of(setup);
       return setup;
     } catch (const std::invalid_argument& error) {
@@ -229,7 +229,7 @@ class HapticsRun {
   }
 
   static double distance_of(const HapticSetup& setup) {
-    return ContactLoop(setup.scene, setup.options.contacts).contact_distance();
+    return HapticSession(setup.scene, setup.options).contacts().contact_distance();
   }
 
   void open_devices() {
@@ -292,7 +292,8 @@ class HapticsRun {
     cycles_.emplace(arguments_.cycles, haptic_cycle_header(columns()));
     // Last: what cannot be written elsewhere leaves no run behind.
     if (!arguments_.run.empty()) {
-      run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
+      run_file_.emplace(RunFile::begin(arguments_.run, record_->header(),
+                                       arguments_.force ? HeldRun::replaced : HeldRun::kept));
     }
     if (live_) {
       mouse_->serve(live_->page(record_->header(), template_));

@@ -31,7 +31,9 @@ std::size_t count_lines(std::istream& stream) {
 }
 
 /// What a file holds already, and what may be done about it.
-std::string describe_held(const std::string& path, const RunHeader& header) {
+///
+/// @param resumes  the command can go on with it
+std::string describe_held(const std::string& path, const RunHeader& header, bool resumes) {
   constexpr const char* kReplace = "replace it with --force, or give another file";
   std::ifstream stream(path, std::ios::binary);
   try {
@@ -47,7 +49,7 @@ std::string describe_held(const std::string& path, const RunHeader& header) {
     const bool is_same = write_run_header(held) == write_run_header(header);
     return fmt::format("holds an unfinished run{}, {} of {} steps; {}{}",
                        is_same ? "" : " of another scene or with other options", steps, whole,
-                       is_same ? "go on with --resume, " : "", kReplace);
+                       is_same && resumes ? "go on with --resume, " : "", kReplace);
   } catch (const std::exception&) {
     return fmt::format("holds something already, which is no run; {}", kReplace);
   }
@@ -66,12 +68,13 @@ RunFile::RunFile(const std::string& path, const RunHeader& header) : RunFile(pat
   write(write_run_header(header));
 }
 
-RunFile RunFile::begin(const std::string& path, const RunHeader& header, bool replaces) {
+RunFile RunFile::begin(const std::string& path, const RunHeader& header, HeldRun on_held) {
   std::error_code error;
   const bool holds_anything =
       std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
-  if (holds_anything && !replaces) {
-    throw std::runtime_error(path + ": " + describe_held(path, header));
+  if (holds_anything && on_held != HeldRun::replaced) {
+    throw std::runtime_error(path + ": " +
+                             describe_held(path, header, on_held == HeldRun::resumable));
   }
   return {path, header};
 }

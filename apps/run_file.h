@@ -13,16 +13,22 @@
 
 namespace firstcontact::app {
 
+/// What becomes of a run that a file holds when another one is to begin there.
+enum class HeldRun {
+  kept,       ///< It is refused.
+  resumable,  ///< It is refused, and --resume is offered where the two are one run.
+  replaced,   ///< It is lost.
+};
+
 /// Holds a header and whole steps, at every moment but while a line is being written. What was cut
 /// off there is left out when the run is resumed.
 class RunFile {
  public:
   /// Begins a new run.
   ///
-  /// @param replaces  what the file holds is lost
   /// @throws std::runtime_error, one line that names the file, where it cannot be written, or where
   ///         it holds anything and is not to be replaced
-  static RunFile begin(const std::string& path, const RunHeader& header, bool replaces);
+  static RunFile begin(const std::string& path, const RunHeader& header, HeldRun on_held);
 
   /// Goes on with the run in the file, or begins one where there is no file.
   ///

@@ -143,7 +143,8 @@ class Run {
       return;
     }
     if (!arguments.resume) {
-      file_.emplace(RunFile::begin(arguments.output, simulator_.header(), arguments.force));
+      file_.emplace(RunFile::begin(arguments.output, simulator_.header(),
+                                   arguments.force ? HeldRun::replaced : HeldRun::resumable));
       return;
     }
     file_.emplace(RunFile::resume(arguments.output, simulator_.header(),

@@ -130,6 +130,18 @@ class Haptics(tool_test.ToolTest):
         self.glove([",2"] * 10, columns=",buttons")
         self.assertEqual(self.haptics("--device", "glove.csv").returncode, 0)
 
+    def test_keeps_a_run_that_is_there(self):
+        self.file("scene.json", scene())
+        some = ("--device", "simulated", "--duration", "0.1")
+        self.assertEqual(self.haptics(*some).returncode, 0)
+        run = (self.folder / "run.jsonl").read_text()
+        self.file("run.jsonl", "".join(run.splitlines(keepends=True)[:50]))
+        result = self.haptics(*some)
+        self.assert_refused_with(result, "run.jsonl", "49 of 100 steps", "--force")
+        self.assertNotIn("--resume", result.stderr)
+        self.assertEqual(self.haptics(*some, "--force").returncode, 0)
+        self.assertEqual((self.folder / "run.jsonl").read_text(), run)
+
     def peak_memory(self, *arguments):
         """[bytes]  Of a session, however its allocator keeps what is freed."""
         process = self.start("haptics", "scene.json", "--device", "simulated", "--force", *arguments,
@@ -291,6 +303,9 @@ class Haptics(tool_test.ToolTest):
         self.assert_writes_nothing(self.haptics("--device", "mouse", "--device", "mouse"), "mouse moves one tool")
         self.assert_writes_nothing(self.haptics("--device", "none.csv"), "none.csv")
         self.assert_writes_nothing(self.haptics(*device, out="scene.json"), "scene.json")
+        self.file("scene.json", scene(tools=[{"body": "peg", "scale": 1e7}]))
+        self.assert_writes_nothing(self.haptics(*device), "scene.json:", "haptics.tools[0].scale", "at most 1e6")
+        self.file("scene.json", scene())
         self.file("broken.csv", "no recording\n")
         self.assert_writes_nothing(self.haptics("--device", "broken.csv"), "broken.csv")
 

@@ -145,6 +145,8 @@ TEST(HapticsFile, SaysWhatIsWrongWithATool) {
        ".angular_stiffness: expected a number > 0, got -1"},
       {R"("body": "peg", "damping": -1)", ".damping: expected a number >= 0, got -1"},
       {R"("body": "peg", "scale": 0)", ".scale: expected a number > 0, got 0"},
+      {R"("body": "peg", "scale": 1e7)",
+       ".scale: expected a number > 0 of at most 1e6, got 10000000"},
       {R"("body": "peg", "centre": [1, 2])", ".centre: expected three numbers, got an array of 2"},
       {R"("body": "peg", "device_axes": {"position": [0, 0, 5e-324]})",
        ".device_axes: expected a rotation alone, got a position too"},

@@ -15,6 +15,7 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kMostHapticTools = 2;
+constexpr double kMostScale = 1e6;  // [-]  As in a mapping of a device.
 
 class HapticsReader {
  public:
@@ -84,6 +85,9 @@ class HapticsReader {
     take_positive(object, "angular_stiffness", tool.angular_stiffness);
     take_not_negative(object, "damping", tool.damping);
     take_positive(object, "scale", tool.scale);
+    if (!(tool.scale <= kMostScale)) {
+      read_.fail_expected("a number > 0 of at most 1e6", *find(object, "scale"));
+    }
     if (const JsonValue* centre = find(object, "centre")) {
       tool.centre = read_.vector3(*centre);
     }
