@@ -51,6 +51,22 @@ TEST(HapticSession, RunsCyclesAtTheirRate) {
   EXPECT_EQ(cycles, 1000);
 }
 
+TEST(HapticSession, KeepsTheContactRateWhereATickIsNoWholeNumberOfNanoseconds) {
+  const auto ticks_of = [](double force_rate, double contact_rate, std::int64_t latency_ns) {
+    const HapticSession session(
+        cube_on_floor(),
+        {.force_rate = force_rate, .contact_rate = contact_rate, .contact_latency_ns = latency_ns});
+    return session.cycle_period_ns() / session.force_period_ns();
+  };
+  EXPECT_EQ(ticks_of(3000.0, 1000.0, 0), 3);
+  EXPECT_EQ(ticks_of(7000.0, 1000.0, 0), 7);
+  EXPECT_EQ(ticks_of(9000.0, 1000.0, 0), 9);
+  EXPECT_EQ(ticks_of(333.0, 111.0, 0), 3);
+  EXPECT_EQ(ticks_of(8000.0, 3000.0, 0), 3);  // No faster than asked.
+  EXPECT_EQ(ticks_of(3000.0, 3000.0, 1'000'000), 3);
+  EXPECT_EQ(ticks_of(4000.0, 1000.0, 1'000'001), 5);
+}
+
 TEST(HapticSession, IsTheSameOnEveryRun) {
   const auto forces = [] {
     HapticSession session(peg_over_hole(1e-4, 0.2));

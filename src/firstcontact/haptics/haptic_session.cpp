@@ -12,6 +12,15 @@
 namespace firstcontact {
 
 namespace detail {
+namespace {
+
+/// At least so many ticks, and one.
+std::int64_t whole_ticks(double ticks) {
+  constexpr double kRounding = 1e-6;  // [ticks]  Of a quotient of rates.
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(ticks - kRounding)));
+}
+
+}  // namespace
 
 SessionPeriods session_periods(const HapticSessionOptions& options) {
   if (!(options.force_rate > 0.0 && options.force_rate <= 1e6)) {
@@ -26,13 +35,15 @@ SessionPeriods session_periods(const HapticSessionOptions& options) {
         "HapticSessionOptions::contact_latency_ns must be 0 to 10,000,000,000");
   }
   constexpr double kSecond = 1e9;  // [ns]
+  // A cycle begins with a tick, and contacts are felt in one. Ticks are counted by the rates that
+  // are asked for: a period is rounded to a nanosecond, and three of them are no millisecond.
+  const std::int64_t latency =
+      whole_ticks(static_cast<double>(options.contact_latency_ns) / kSecond * options.force_rate);
+  const std::int64_t cycle = whole_ticks(options.force_rate / options.contact_rate);
   SessionPeriods periods;
   periods.force_ns = std::llround(kSecond / options.force_rate);
-  periods.latency_ns = std::max(options.contact_latency_ns, periods.force_ns);
-  const std::int64_t cycle =
-      std::max<std::int64_t>(std::llround(kSecond / options.contact_rate), periods.latency_ns);
-  // Cycles begin with ticks.
-  periods.cycle_ns = (cycle + periods.force_ns - 1) / periods.force_ns * periods.force_ns;
+  periods.latency_ns = latency * periods.force_ns;
+  periods.cycle_ns = std::max(cycle, latency) * periods.force_ns;
   return periods;
 }
 

@@ -12,7 +12,7 @@ namespace firstcontact::detail {
 struct SessionPeriods {
   std::int64_t force_ns = 0;    ///< [ns]
   std::int64_t cycle_ns = 0;    ///< [ns]  A whole number of ticks.
-  std::int64_t latency_ns = 0;  ///< [ns]  At least a tick.
+  std::int64_t latency_ns = 0;  ///< [ns]  Likewise.
 };
 
 /// @throws std::invalid_argument if a rate or the latency is out of its range
