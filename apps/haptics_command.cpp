@@ -125,7 +125,8 @@ SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const Haptic
                                         std::size_t number) {
   RandomPathOptions path;
   path.seed = arguments.seed + 1000 * number;
-  path.radius = arguments.radius.value_or(2.0 * tool.shape.bounds().reach) / mapping.scale;
+  const double reach = tool.shape.bounds().reach + tool.shape.radius();
+  path.radius = arguments.radius.value_or(2.0 * reach) / mapping.scale;
   path.fastest = arguments.speed.value_or(1.0);
   path.slowest = std::min(path.slowest, path.fastest);
   path.centre = mapping.X_DH;
@@ -137,11 +138,11 @@ SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const Haptic
   return options;
 }
 
-/// Opens the files that grow, and writes to them.
-class GrowingFile {
+/// A file that is begun before the session, if it has a name.
+class BegunFile {
  public:
-  GrowingFile() = default;
-  GrowingFile(const std::string& path, const std::string& header) {
+  BegunFile() = default;
+  explicit BegunFile(const std::string& path, const std::string& header = "") {
     if (!path.empty()) {
       file_.emplace(path);
       file_->write(header);
@@ -290,6 +291,9 @@ class HapticsRun {
     }
     ticks_.emplace(arguments_.ticks, haptic_tick_header(columns()));
     cycles_.emplace(arguments_.cycles, haptic_cycle_header(columns()));
+    drawing_.emplace(arguments_.plot);
+    timing_.emplace(arguments_.timing);
+    page_file_.emplace(arguments_.page);
     // Last: what cannot be written elsewhere leaves no run behind.
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(),
@@ -384,16 +388,19 @@ class HapticsRun {
   void end_files() {
     ticks_->commit();
     cycles_->commit();
-    if (!arguments_.plot.empty()) {
-      write_file(arguments_.plot, plot_.draw(arguments_.scene));
+    if (drawing_->is_open()) {
+      drawing_->write(plot_.draw(arguments_.scene));
+      drawing_->commit();
     }
-    if (!arguments_.timing.empty() && wall_) {
-      write_file(arguments_.timing, haptic_timing_csv(*wall_));
+    if (wall_) {
+      timing_->write(haptic_timing_csv(*wall_));
+      timing_->commit();
     }
     if (page_ && page_->time() > 0.0) {
       ShapeCache cache;
       const LoadedScene loaded = load_scene(record_->header().scene, cache);
-      write_file(arguments_.page, page_->write(template_, loaded));
+      page_file_->write(page_->write(template_, loaded));
+      page_file_->commit();
     }
   }
 
@@ -426,8 +433,12 @@ class HapticsRun {
   std::optional<RunPage> page_;
   std::string template_;  // Of the page.
   std::optional<RunFile> run_file_;
-  std::optional<GrowingFile> ticks_;
-  std::optional<GrowingFile> cycles_;
+  std::optional<BegunFile> ticks_;
+  std::optional<BegunFile> cycles_;
+  // These are written at the end, but what cannot be written is better known before the session.
+  std::optional<BegunFile> drawing_;
+  std::optional<BegunFile> timing_;
+  std::optional<BegunFile> page_file_;
   HapticPlot plot_;
   std::int64_t begin_ns_ = 0;
   HapticReport report_;
@@ -481,8 +492,10 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
              "moves, or 10");
   add_number(*command, "--latency", arguments->latency, Range::not_negative,
              "Seconds that a cycle of the contact loop takes in virtual time");
-  add_number(*command, "--radius", arguments->radius, Range::positive,
-             "Metres that the simulated hand goes from the start; twice the tool by default");
+  add_number(
+      *command, "--radius", arguments->radius, Range::positive,
+      "Metres from its start to which the simulated hand leads the tool; by default twice its "
+      "reach, from its middle to its farthest point");
   add_number(
       *command, "--speed", arguments->speed, Range::positive,
       "Metres per second at most of the simulated hand, in the mean of a stroke; by default 1");

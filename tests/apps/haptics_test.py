@@ -36,6 +36,9 @@ class Haptics(tool_test.ToolTest):
     def haptics(self, *arguments, out="run.jsonl"):
         return self.run_tool("haptics", "scene.json", *arguments, "-o", out)
 
+    def has_viewer(self):
+        return (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists()
+
     def assert_writes_nothing(self, result, *words):
         self.assert_refused_with(result, *words)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name != "scene.json"
@@ -142,6 +145,21 @@ class Haptics(tool_test.ToolTest):
         self.assertEqual(self.haptics(*some, "--force").returncode, 0)
         self.assertEqual((self.folder / "run.jsonl").read_text(), run)
 
+    def test_refuses_folders_that_are_missing_before_the_session(self):
+        self.file("scene.json", scene())
+        for option, *needs in (("--ticks",), ("--cycles",), ("--plot",), ("--html",), ("--timing", "--wall")):
+            if option == "--html" and not self.has_viewer():
+                continue
+            result = self.haptics("--device", "simulated", "--duration", "1e6", option, "none/file", *needs)
+            self.assert_writes_nothing(result, "none/file: cannot write this file")
+
+    def test_moves_a_sphere_that_is_a_point_with_a_radius(self):
+        self.file("scene.json", scene(bodies=[PLATE, {**PEG, "shape": {"sphere": {"radius": 0.01}}}]))
+        result = self.haptics("--device", "simulated", "--duration", "1", "--ticks", "ticks.csv")
+        self.assertEqual(result.returncode, 0, result)
+        with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+            self.assertGreater(max(abs(float(tick["target_px"])) for tick in csv.DictReader(file)), 0.002)
+
     def peak_memory(self, *arguments):
         """[bytes]  Of a session, however its allocator keeps what is freed."""
         process = self.start("haptics", "scene.json", "--device", "simulated", "--force", *arguments,
@@ -209,7 +227,7 @@ class Haptics(tool_test.ToolTest):
 
     def live(self):
         """Starts a session whose tool follows a page; gives the process and the port."""
-        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
+        if not self.has_viewer():
             self.skipTest("built without the viewer")
         self.file("scene.json", scene())
         process = self.start("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl", "--ticks", "ticks.csv")
@@ -259,7 +277,7 @@ class Haptics(tool_test.ToolTest):
         self.assertEqual(process.returncode, 3)
 
     def test_refuses_a_button_that_the_device_lacks(self):
-        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
+        if not self.has_viewer():
             self.skipTest("built without the viewer")
         self.file("scene.json", scene(({"body": "peg", "dead_man_button": 0},)))
         self.assert_refused_with(self.run_tool("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl"),

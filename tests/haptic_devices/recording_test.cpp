@@ -192,6 +192,7 @@ TEST(Recording, NamesKeysThatItDoesNotTake) {
             "'1 1 0 0'");
   EXPECT_EQ(with("calibration_scale: 0"),
             "hand.csv:2: calibration_scale: expected a number from 1e-6 to 1e6, got '0'");
+  EXPECT_EQ(with("kind: rate\n# kind: pose"), "hand.csv:3: the key 'kind' stands twice");
   EXPECT_EQ(with("a remark"),
             "hand.csv:2: expected '# key: value', got 'a remark'; a comment begins with two signs "
             "##");

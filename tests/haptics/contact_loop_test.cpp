@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/query/first_contact.h>
@@ -384,6 +386,23 @@ TEST(ContactLoop, RefusesToStartInsideAndNamesBoth) {
   scene = cube_on_floor();
   scene.tools.clear();
   EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
+}
+
+TEST(ContactLoop, NamesTheContactDistanceOfAToolOfOnePoint) {
+  const auto refusal = [](std::optional<double> distance) -> std::string {
+    HapticScene scene = cube_on_floor();
+    scene.tools[0].shape = Shape(Mesh{.vertices = {Vector3d::Zero()}, .triangles = {{0, 0, 0}}});
+    scene.contact_distance = distance;
+    try {
+      const ContactLoop loop(scene);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_NE(refusal({}).find("no default of \"contact_distance\""), std::string::npos);
+  EXPECT_NE(refusal(1e-20).find("\"contact_distance\" is too small"), std::string::npos);
+  EXPECT_EQ(refusal(1e-5), "none");
 }
 
 TEST(ContactLoop, LetsIgnoredPairsPass) {

@@ -159,6 +159,9 @@ TEST(HapticsFile, SaysWhatIsWrongWithATool) {
        ".clutch_button: expected a button, an integer from 0 to 31, got -1"},
       {R"("body": "peg", "dead_man_button": 1.5)",
        ".dead_man_button: expected a button, an integer from 0 to 31, got 1.5"},
+      {R"("body": "peg", "clutch_button": 2, "dead_man_button": 2)",
+       ".dead_man_button: expected another button than that of the clutch: the tool would never be "
+       "felt"},
       {R"("body": "peg", "stifness": 1)", ".stifness: unknown key; did you mean \"stiffness\"?"}};
   for (const auto& [tool, message] : cases) {
     EXPECT_EQ(haptics_said(R"({"tools": [{"body": "plate"}, {)" + tool + "}]}"),

@@ -149,7 +149,13 @@ class RecordingParser {
     if (!columns_.empty()) {
       fail("keys stand before the column names; a comment begins with two signs ##");
     }
-    detail::read_recording_key(trimmed(line_.substr(1)), source_, number_, recording_);
+    const std::string_view line = trimmed(line_.substr(1));
+    detail::read_recording_key(line, source_, number_, recording_);
+    const std::string_view key = trimmed(line.substr(0, line.find(':')));
+    if (std::ranges::find(keys_, key) != keys_.end()) {
+      fail("the key " + quoted(key) + " stands twice");
+    }
+    keys_.push_back(key);
   }
 
   /// Splits the line at its commas.
@@ -336,6 +342,7 @@ class RecordingParser {
   std::vector<Column> columns_;
   std::vector<std::optional<std::size_t>> grips_;  // Of columns: which grip.
   std::vector<std::string_view> cells_;
+  std::vector<std::string_view> keys_;
   Recording recording_;
 };
 

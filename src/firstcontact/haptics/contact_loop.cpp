@@ -76,9 +76,12 @@ void ContactLoop::Implementation::begin_members() {
     }
   }
   distance_ = scene_.contact_distance.value_or(detail::kContactDistanceOfReach * least_reach);
+  detail::require_haptic(
+      scene_.contact_distance || least_reach > 0.0,
+      "a tool of one point has no default of \"contact_distance\": give it in metres");
   detail::require_haptic(distance_ >= detail::kLeastContactDistanceOfExtent * extent,
-                         "the contact distance is too small to be proven at coordinates of " +
-                             std::to_string(extent) + " m");
+                         "\"contact_distance\" is too small to be proven at coordinates of " +
+                             std::to_string(extent) + " m: give a larger one");
   finder_ = detail::ContactFinder(distance_);
 }
 

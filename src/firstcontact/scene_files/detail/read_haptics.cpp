@@ -106,6 +106,10 @@ class HapticsReader {
     }
     tool.clutch_button = button(object, "clutch_button");
     tool.dead_man_button = button(object, "dead_man_button");
+    if (tool.clutch_button && tool.clutch_button == tool.dead_man_button) {
+      read_.fail(*find(object, "dead_man_button"),
+                 "expected another button than that of the clutch: the tool would never be felt");
+    }
     if (const JsonValue* grips = find(object, "grips")) {
       if (!tool.robot) {
         read_.fail(*grips, "expected \"grips\" with a \"robot\" alone: a body has no joints");
