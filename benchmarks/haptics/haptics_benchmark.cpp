@@ -197,7 +197,7 @@ int run(const std::string& file, const Options& options) {
       devices[d]->command(tick.tools[d].command, now);
       targets[d] = tick.tools[d].target;
       leads[d].watch(now, tick.tools[d]);
-      led[d] = leads[d].target_in(1e-3 * options.lead);
+      led[d] = leads[d].target_in(detail::is_rubbing(set, d) ? 0.0 : 1e-3 * options.lead);
     }
     std::optional<Eigen::Vector3d> exact;
     if (k % kCompared == 0) {  // From the first tick on: the ramp has to be over there, too.

@@ -359,6 +359,25 @@ TEST(HapticSession, DampsTheMotionOfSurfacesToo) {
   }
 }
 
+TEST(HapticSession, FeelsConstantFrictionWhileItSlides) {
+  constexpr double kFriction = 0.1;
+  for (const double speed : {0.02, 0.5}) {
+    HapticScene scene = cube_on_floor(kFriction);
+    scene.tools[0].coupling.angular_stiffness = 100.0;
+    HapticSession session(scene);
+    Sampled sampled;
+    for (int k = 0; k < 2400; ++k) {
+      const double x = speed * 2.5e-4 * std::max(0, k - 900);
+      const ForceTick& tick =
+          session.step(std::array{sampled({x, 0.0, -0.015}, session.time_ns())});
+      if (k > 2000) {
+        const Vector3d& force = tick.tools[0].command.force_D;
+        ASSERT_NEAR(-force.x(), kFriction * force.z(), 0.001) << speed << ", " << k;
+      }
+    }
+  }
+}
+
 TEST(HapticSession, RefusesRatesOutOfRange) {
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),

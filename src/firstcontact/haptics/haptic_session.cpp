@@ -93,7 +93,7 @@ class HapticSession::Implementation {
     }
     if (!is_running_ && now_ns_ >= begins_ns_) {
       for (std::size_t k = 0; k < targets_.size(); ++k) {
-        targets_[k] = leads_[k].target_in(lead_);
+        targets_[k] = leads_[k].target_in(detail::is_rubbing(set_, k) ? 0.0 : lead_);
       }
       cycle_ = &contacts_.advance(
           {.poses = targets_, .joints = std::span(tick.joint_targets).first(tick.joints)},

@@ -150,14 +150,14 @@ class ForceThread {
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       states[k] = devices_[k]->read(now);
     }
-    ForceTick tick =
-        loop_.tick(now, shared_.sets.newest(), std::span(states.data(), devices_.size()));
+    const HapticContactSet& set = shared_.sets.newest();
+    ForceTick tick = loop_.tick(now, set, std::span(states.data(), devices_.size()));
     HandedTargets handed{.sequence = ++sequence_, .time_ns = now};
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       limit(tick.tools[k], devices_[k]->capabilities());
       devices_[k]->command(tick.tools[k].command, now);
       leads_[k].watch(now, tick.tools[k]);
-      handed.targets[k] = leads_[k].target_in(lead_);
+      handed.targets[k] = leads_[k].target_in(detail::is_rubbing(set, k) ? 0.0 : lead_);
     }
     handed.joint_count = tick.joints;
     handed.joints = tick.joint_targets;

@@ -1,6 +1,7 @@
 #include <firstcontact/haptics/detail/target_lead.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 
 #include <firstcontact/haptics/detail/god_object_plan.h>
@@ -115,6 +116,15 @@ Pose TargetLead::target_in(double seconds) const noexcept {
     led.rotation = (turn_by(ahead * moves->angular) * led.rotation).normalized();
   }
   return led;
+}
+
+bool is_rubbing(const HapticContactSet& set, std::size_t tool) noexcept {
+  const std::size_t count = std::min<std::size_t>(set.count, kMostHapticContacts);
+  const auto number = static_cast<std::int32_t>(tool);
+  return std::any_of(
+      set.contacts.begin(), set.contacts.begin() + count, [number](const HapticContact& contact) {
+        return contact.friction > 0.0 && (contact.tool == number || contact.other == number);
+      });
 }
 
 }  // namespace firstcontact::detail

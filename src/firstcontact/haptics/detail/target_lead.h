@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/haptics/contact_set.h>
 #include <firstcontact/haptics/force_loop.h>
 #include <firstcontact/motion/pose.h>
 
@@ -63,5 +64,9 @@ class TargetLead {
   Sample newest_;
   Pose target_;  // Of the last tick.
 };
+
+/// Whether a tool touches anything with friction. Its target is not led then: a god-object that
+/// slides ahead of the device is held there, and friction is felt as less than it is.
+[[nodiscard]] bool is_rubbing(const HapticContactSet& set, std::size_t tool) noexcept;
 
 }  // namespace firstcontact::detail
