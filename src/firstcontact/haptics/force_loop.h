@@ -111,9 +111,9 @@ struct ForceTick {
 ///
 /// A force is that of the spring between the target and where contacts would let the god-object be:
 /// the sum of contact forces in Coulomb's cones. It is exactly 0 where no contact presses, however
-/// far the god-object lags behind. With damping the target and surfaces are where they will be after
-/// damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is that of
-/// its own spring likewise.
+/// far the god-object lags behind. With damping the target and surfaces are where they will be
+/// after damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is
+/// that of its own spring likewise.
 ///
 /// Contacts may contradict each other, or need more pivots (ForceFault::unsolved). Then the last
 /// force stays that was solved. It is cut to the length of the springs' stretch, plus the way of
