@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <firstcontact/simulation/detail/island_plan.h>
@@ -73,7 +72,6 @@ std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
 bool IslandPlanner::follow_curves() {
   const double slack = kSlackOfMean * state_.model.distances.least / span_;
   const std::vector<ContactBody>& at_end = last_->velocities.bodies;
-  std::vector<std::pair<std::size_t, ContactPoint>> turned;
   bool is_changed = false;
   for (std::size_t k = 0; k < first_ahead_; ++k) {
     if (!is_on_curve(k)) {
@@ -99,11 +97,7 @@ bool IslandPlanner::follow_curves() {
       changed_.push_back(k);
       is_changed = true;
     }
-    turned.emplace_back(k, contact);
-  }
-  // Impulses of the last solution have the directions that it was found with.
-  for (std::size_t k = 0; k < turned.size() && is_changed; ++k) {
-    problem_.contacts[turned[k].first] = turned[k].second;
+    problem_.contacts[k] = contact;
   }
   return is_changed;
 }

@@ -211,8 +211,11 @@ void IslandPlanner::solve() {
   }
   last_ = again ? std::move(*again) : project_plan(state_, problem_, free);
   changed_.clear();
+  impulses_.clear();
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    problem_.contacts[k].guess = last_->velocities.impulses[k];
+    ContactPoint& contact = problem_.contacts[k];
+    contact.guess = last_->velocities.impulses[k];
+    impulses_.emplace_back(contact.frame.transpose() * contact.guess);
   }
   for (std::size_t k = 0; k < problem_.ties.size(); ++k) {
     problem_.ties[k].guess = last_->velocities.ties[k];
@@ -279,8 +282,7 @@ Plan IslandPlanner::plan() {
 std::vector<ManifoldPoint> IslandPlanner::touches() const {
   std::vector<ManifoldPoint> touches = touches_;
   for (std::size_t k = 0; k < touches.size(); ++k) {
-    const ContactPoint& contact = problem_.contacts[k];
-    touches[k].impulse = contact.frame.transpose() * contact.guess;
+    touches[k].impulse = impulses_[k];
   }
   return touches;
 }

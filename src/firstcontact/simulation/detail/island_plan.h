@@ -216,6 +216,8 @@ class IslandPlanner {
   std::vector<RobotFlight> flights_;            // Of the robots,
   std::vector<bool> robots_by_end_;             // and which of them velocities at the end lead.
   std::optional<PlanSolution> last_ = {};
+  /// [N s]  Of its contacts, in the world, as they acted: contacts may have turned since.
+  std::vector<Eigen::Vector3d> impulses_ = {};
   std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
   std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.
 };
