@@ -42,9 +42,9 @@ namespace og = ompl::geometric;
 
 /// A space of OMPL in which motions slide.
 struct Sliding {
-  explicit Sliding(PlanScene scene)
+  explicit Sliding(PlanScene scene, const ContactSpaceOptions& options = {})
       : edges(std::make_shared<EdgeChecker>(std::move(scene))),
-        space(std::make_shared<ContactStateSpace>(make_ompl_space(edges->space()), edges)),
+        space(std::make_shared<ContactStateSpace>(make_ompl_space(edges->space()), edges, options)),
         si(std::make_shared<ob::SpaceInformation>(space)) {
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
     si->setStateValidityChecker(std::make_shared<ProvenStates>(si, edges));
@@ -281,6 +281,19 @@ TEST(OmplContacts, SlideAcrossHalfATurn) {
     }
   }
   EXPECT_GT(slid, 0);
+}
+
+TEST(OmplContacts, RefuseHalfATurnOfABody) {
+  for (const bool slides : {true, false}) {
+    const Sliding sliding(with_bar(RobotScene(), {0.1, 0.2, 0.3}), {.slides = slides});
+    const ob::ScopedState<> from = sliding.state({0, 0, 0, 1, 0, 0, 0});
+    const ob::ScopedState<> half = sliding.state({0, 0, 0, 0, 0, 0, -1});
+    EXPECT_FALSE(sliding.si->checkMotion(from.get(), half.get()));
+    og::PathGeometric path(sliding.si, from.get(), half.get());
+    EXPECT_FALSE(sliding.space->expand(path));
+    const ob::ScopedState<> nearly = sliding.state({0, 0, 0, 1e-12, 0, 0, -1});
+    EXPECT_TRUE(sliding.si->checkMotion(from.get(), nearly.get()));
+  }
 }
 
 TEST(OmplContacts, AreNotProvenWhereTheyCollide) {

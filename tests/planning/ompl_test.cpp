@@ -246,6 +246,64 @@ TEST(Ompl, PlansForABody) {
   expect_path_through_window<ob::SE3StateSpace>(with_bar(thin_wall(0.4), {0.05, 0.3, 0.05}), 0.5);
 }
 
+/// An edge of about half a turn about z: it ends at (w, 0, 0, z).
+Configuration turned(double w, double z) { return {0, 0, 0, w, 0, 0, z}; }
+
+// Sound: what is valid turns the same way in OMPL and in the proof.
+TEST(Ompl, TurnsAsProvenNearHalfATurn) {
+  const Proven proven(with_bar(RobotScene(), {0.1, 0.2, 0.3}));
+  const OmplStates states(*proven.space, proven.edges->space());
+  Random random(11);
+  int refused = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Eigen::Vector4d start = Eigen::Vector4d::NullaryExpr([&] { return random.uniform(-1, 1); });
+    Eigen::Vector4d end = Eigen::Vector4d::NullaryExpr([&] { return random.uniform(-1, 1); });
+    start.normalize();
+    end = (end - end.dot(start) * start).normalized();
+    end += std::exp2(random.uniform(-58, -40)) * start;
+    ob::State* from = proven.state({0, 0, 0, start[0], start[1], start[2], start[3]});
+    ob::State* to = proven.state({0, 0, 0, end[0], end[1], end[2], end[3]});
+    ob::State* quarter = proven.si->allocState();
+    proven.space->interpolate(from, to, 0.25, quarter);
+    const Configuration there = states.read(quarter);
+    const Configuration ours =
+        proven.edges->space().interpolate(states.read(from), states.read(to), 0.25);
+    double dot = 0.0;
+    for (std::size_t i = 3; i < 7; ++i) {
+      dot += there[i] * ours[i];
+    }
+    if (proven.validator->checkMotion(from, to)) {
+      ASSERT_NEAR(std::abs(dot), 1.0, 1e-12) << k;
+    } else {
+      ++refused;
+    }
+    for (ob::State* state : {from, to, quarter}) {
+      proven.si->freeState(state);
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(Ompl, RefusesHalfATurn) {
+  const Proven proven(with_bar(RobotScene(), {0.1, 0.2, 0.3}));
+  ob::State* from = proven.state(turned(1, 0));
+  ob::State* half = proven.state(turned(0, -1));
+  const unsigned int invalid = proven.validator->getInvalidMotionCount();
+  EXPECT_FALSE(proven.validator->checkMotion(from, half));
+  ob::State* reached = proven.si->allocState();
+  std::pair<ob::State*, double> last(reached, -1.0);
+  EXPECT_FALSE(proven.validator->checkMotion(from, half, last));
+  EXPECT_EQ(proven.validator->getInvalidMotionCount(), invalid + 2);
+  EXPECT_EQ(last.second, 0.0);
+  EXPECT_TRUE(proven.space->equalStates(reached, from));
+  // Tight: a picoradian less than half a turn is an edge.
+  ob::State* nearly = proven.state(turned(1e-12, -1));
+  EXPECT_TRUE(proven.validator->checkMotion(from, nearly));
+  for (ob::State* state : {from, half, nearly, reached}) {
+    proven.si->freeState(state);
+  }
+}
+
 /// A small cube among bodies, whose edges are screws.
 PlanScene with_screws(RobotScene scene) {
   ConfigurationSpace space = ConfigurationSpace::of_body(

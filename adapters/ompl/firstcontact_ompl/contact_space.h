@@ -199,7 +199,8 @@ class ContactStateSpace : public ChainedStateSpace {
   }
 
   [[nodiscard]] bool is_free(const Configuration& from, const Configuration& to) const {
-    return ways_.edges().check_quickly(from, to).verdict == EdgeVerdict::free;
+    return states_.has_same_edge(from, to) &&
+           ways_.edges().check_quickly(from, to).verdict == EdgeVerdict::free;
   }
 
   /// Goes towards a place, and remembers the way.
@@ -210,8 +211,9 @@ class ContactStateSpace : public ChainedStateSpace {
     return within_bounds(ways_.follow(from, target).places, &target);
   }
 
-  /// Cuts a way where it leaves the bounds, and where it is nearest to its target if it has one: a
-  /// way that leads away again would let planners turn in circles. Remembers it.
+  /// Cuts a way where it leaves the bounds, where OMPL may turn the other way, and where it is
+  /// nearest to its target if it has one: a way that leads away again would let planners turn in
+  /// circles. Remembers it.
   ///
   /// @param found  at least one place
   [[nodiscard]] Way within_bounds(const Way& found, const Configuration* target) const {
@@ -226,7 +228,8 @@ class ContactStateSpace : public ChainedStateSpace {
       Configuration place = states_.read(at);  // Angles within a turn.
       const bool is_as_found = place == found[k] && (k == 0 || way.back() == found[k - 1]);
       const Configuration& before = k == 0 ? place : way.back();
-      if (k > 0 && !(satisfiesBounds(at) && (is_as_found || is_free(before, place)))) {
+      if (k > 0 && !(satisfiesBounds(at) && states_.has_same_edge(before, place) &&
+                     (is_as_found || is_free(before, place)))) {
         break;
       }
       way.push_back(std::move(place));

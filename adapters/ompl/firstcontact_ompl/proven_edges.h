@@ -46,6 +46,7 @@ class ProvenStates : public ompl::base::StateValidityChecker {
 };
 
 /// A motion is valid if the whole edge is proven free; what is undecided is not, and is counted.
+/// A motion along which OMPL may turn the other way is not valid: OmplStates::has_same_edge().
 ///
 /// Set it with setMotionValidator() before setup(), beside ProvenStates of the same checker. A
 /// motion that is not valid has a last valid state. It is a rounded state of OMPL, and the edge to
@@ -58,13 +59,18 @@ class ProvenEdges : public ompl::base::MotionValidator {
         edges_(std::move(edges)) {}
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
-    return count(edges_->check_quickly(states_.read(from), states_.read(to)));
+    const Configuration start = states_.read(from);
+    const Configuration end = states_.read(to);
+    return count(states_.has_same_edge(start, end) ? edges_->check_quickly(start, end) : kBlocked);
   }
 
   /// The state of `last` may be null, or `to` itself.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last) const override {
-    const EdgeAnswer answer = edges_->check(states_.read(from), states_.read(to));
+    const Configuration start = states_.read(from);
+    const Configuration end = states_.read(to);
+    const EdgeAnswer answer =
+        states_.has_same_edge(start, end) ? edges_->check(start, end) : kBlocked;
     if (count(answer)) {
       return true;
     }
@@ -81,6 +87,8 @@ class ProvenEdges : public ompl::base::MotionValidator {
   [[nodiscard]] std::size_t undecided() const { return undecided_; }
 
  private:
+  static inline const EdgeAnswer kBlocked{.verdict = EdgeVerdict::blocked};
+
   bool count(const EdgeAnswer& answer) const {
     const bool is_free = answer.verdict == EdgeVerdict::free;
     undecided_ += answer.verdict == EdgeVerdict::undecided ? 1 : 0;
