@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <firstcontact/retiming/joint_limits.h>
+#include <firstcontact/retiming/retime.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "retiming_cases.h"
@@ -42,6 +45,69 @@ TEST(JointLimits, TheFirstSourceCounts) {
   EXPECT_EQ(limits[1].velocity, 7.0);  // 0 in the robot is none.
   EXPECT_EQ(limits[1].acceleration, 6.0);
   EXPECT_EQ(limits[1].jerk, 50.0);
+}
+
+/// A joint "lead", one that moves -2 times as fast, and one that moves 3 times as fast as that.
+RobotModel geared() {
+  RobotDescription description{
+      .name = "geared",
+      .links = {{"base", {}, {}}, {"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}},
+      .joints = {}};
+  Joint lead{.name = "lead", .type = JointType::continuous, .parent = "base", .child = "a"};
+  lead.limits.velocity = 2.0;
+  Joint second{.name = "second", .type = JointType::continuous, .parent = "base", .child = "b"};
+  second.limits.velocity = 3.0;
+  second.mimic = {.joint = "lead", .multiplier = -2.0};
+  Joint third{.name = "third", .type = JointType::continuous, .parent = "base", .child = "c"};
+  third.mimic = {.joint = "second", .multiplier = 3.0};
+  description.joints = {lead, second, third};
+  return RobotModel(description);
+}
+
+TEST(JointLimits, HoldForJointsThatMimic) {
+  const RobotModel robot = geared();
+  const auto of = [&](const std::map<std::string, GivenLimits>& given) {
+    return limits_of(robot, {"lead"}, given, {.acceleration = 60.0}).front();
+  };
+  // The velocity of the robot's follower, and the acceleration for all joints.
+  EXPECT_NEAR(of({}).velocity, 1.5, 1e-15);
+  EXPECT_NEAR(of({}).acceleration, 10.0, 1e-14);
+  EXPECT_FALSE(of({}).jerk.has_value());
+  // Those that a file has for followers; a greater velocity does not lift the robot's.
+  const RateLimits narrow = of({{"second", {.velocity = 8.0, .jerk = 5.0}},
+                                {"third", {.velocity = 1.2, .acceleration = 3.0}}});
+  EXPECT_NEAR(narrow.velocity, 0.2, 1e-15);
+  EXPECT_NEAR(narrow.acceleration, 0.5, 1e-15);
+  EXPECT_NEAR(narrow.jerk.value(), 2.5, 1e-15);
+  EXPECT_NEAR(of({{"second", {.velocity = 8.0}}}).velocity, 1.5, 1e-15);
+  // The leader's own limits count where they are smaller.
+  EXPECT_EQ(of({{"lead", {.velocity = 0.1}}}).velocity, 0.1);
+}
+
+// The follower is slower than its leader: a motion at the leader's own speed was never proven.
+TEST(JointLimits, OfFollowersAreProvenOfAMotion) {
+  RetimingScene where;
+  where.scene.add_robot("geared", RobotMotion(geared(), {{"lead", ramp(0, 0)}}));
+  const std::vector<RateLimits> limits =
+      limits_of(geared(), {"lead"}, {{"third", {.jerk = 60.0}}}, {.acceleration = 60.0});
+  const RetimedMotion made = retime({{"lead"}, {{0.0}, {1.5}}}, limits, where);
+  EXPECT_TRUE(made.proof.is_proven());
+  double fastest = 0.0;
+  for (const RateUse& use : made.proof.rates) {
+    fastest = use.what == JointRate::jerk ? use.bound : fastest;
+  }
+  EXPECT_LE(6.0 * fastest, 60.0);
+  EXPECT_GE(6.0 * fastest, 50.0);
+}
+
+TEST(JointLimits, RefuseJointsThatTheRobotDoesNotHave) {
+  try {
+    (void)limits_of(geared(), {"lead"}, {{"trird", {.velocity = 1.0}}}, {.acceleration = 1.0});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"third\"?"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(JointLimits, MissingOnesNameTheJoint) {

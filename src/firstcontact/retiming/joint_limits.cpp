@@ -64,6 +64,100 @@ GivenLimits limits_in(const JsonValue& value, const JsonReader& read) {
                               rate + ", got none");
 }
 
+/// The lesser of two limits, each of which may be missing.
+std::optional<double> least(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
+}
+
+/// Chooses the limits of the joints of one robot from their sources.
+class LimitSources {
+ public:
+  LimitSources(const RobotModel& robot, const std::map<std::string, GivenLimits>& given,
+               const GivenLimits& others)
+      : robot_(robot), given_(given), others_(others) {
+    for (const auto& [name, limits] : given) {
+      if (!names_fixed_joint(robot, name)) {
+        (void)find_coordinate(robot, name);
+      }
+    }
+  }
+
+  /// The limits of a joint, within those of the joints that mimic it.
+  [[nodiscard]] RateLimits limits(const std::string& name) const {
+    const JointCoordinate coordinate = find_coordinate(robot_, name);
+    const GivenLimits given = given_for(name);
+    const std::optional<double> own = velocity_of_robot(coordinate.joint);
+    const GivenLimits first = with_others({.velocity = given.velocity ? given.velocity : own,
+                                           .acceleration = given.acceleration,
+                                           .jerk = given.jerk});
+    if (!first.velocity) {
+      refuse_missing(name, "velocity");
+    }
+    if (!first.acceleration) {
+      refuse_missing(name, "acceleration");
+    }
+    RateLimits limits{*first.velocity, *first.acceleration, first.jerk};
+    narrow_by_mimics(coordinate.joint, 1.0, limits);
+    return limits;
+  }
+
+ private:
+  [[nodiscard]] GivenLimits given_for(const std::string& name) const {
+    const auto found = given_.find(name);
+    return found == given_.end() ? GivenLimits{} : found->second;
+  }
+
+  [[nodiscard]] std::optional<double> velocity_of_robot(std::size_t joint) const {
+    const std::optional<double> velocity = robot_.joints()[joint].limits.velocity;
+    return velocity.value_or(0.0) != 0.0 ? velocity : std::nullopt;
+  }
+
+  [[nodiscard]] GivenLimits with_others(const GivenLimits& first) const {
+    return {.velocity = first.velocity ? first.velocity : others_.velocity,
+            .acceleration = first.acceleration ? first.acceleration : others_.acceleration,
+            .jerk = first.jerk ? first.jerk : others_.jerk};
+  }
+
+  /// Narrows the limits of a coordinate to those of the joints that mimic it, and so on.
+  ///
+  /// @param factor  [-]  the named joint moves this many times as fast as the coordinate
+  void narrow_by_mimics(std::size_t joint, double factor, RateLimits& limits) const {
+    for (std::size_t other = 0; other < robot_.joints().size(); ++other) {
+      const Joint& follower = robot_.joints()[other];
+      if (!follower.mimic || follower.mimic->joint != robot_.joints()[joint].name) {
+        continue;
+      }
+      const double speed = std::abs(follower.mimic->multiplier) * factor;
+      if (speed > 0.0) {
+        narrow(limits_of_follower(other), speed, limits);
+        narrow_by_mimics(other, speed, limits);
+      }
+    }
+  }
+
+  /// A follower keeps the velocity of its robot in any case: the proof has it.
+  [[nodiscard]] GivenLimits limits_of_follower(std::size_t joint) const {
+    const GivenLimits given = given_for(robot_.joints()[joint].name);
+    return with_others({.velocity = least(given.velocity, velocity_of_robot(joint)),
+                        .acceleration = given.acceleration,
+                        .jerk = given.jerk});
+  }
+
+  static void narrow(const GivenLimits& follower, double speed, RateLimits& limits) {
+    const auto within = [&](const std::optional<double>& limit) {
+      // Rounded down: the follower's limit holds where the leader's does.
+      return limit ? std::optional(std::nextafter(*limit / speed, 0.0)) : std::nullopt;
+    };
+    limits.velocity = *least(limits.velocity, within(follower.velocity));
+    limits.acceleration = *least(limits.acceleration, within(follower.acceleration));
+    limits.jerk = least(limits.jerk, within(follower.jerk));
+  }
+
+  const RobotModel& robot_;
+  const std::map<std::string, GivenLimits>& given_;
+  const GivenLimits& others_;
+};
+
 }  // namespace
 
 std::map<std::string, GivenLimits> parse_joint_limits(std::string_view text,
@@ -106,24 +200,10 @@ std::vector<RateLimits> limits_of(const RobotModel& robot,
                                   const std::vector<std::string>& joint_names,
                                   const std::map<std::string, GivenLimits>& given,
                                   const GivenLimits& others) {
+  const LimitSources sources(robot, given, others);
   std::vector<RateLimits> limits;
   for (const std::string& name : joint_names) {
-    const auto found = given.find(name);
-    const GivenLimits first = found == given.end() ? GivenLimits{} : found->second;
-    const JointLimits& own = robot.joints()[find_coordinate(robot, name).joint].limits;
-    const bool has_own = own.velocity.value_or(0.0) != 0.0;
-    const std::optional<double> velocity = first.velocity ? first.velocity
-                                           : has_own      ? own.velocity
-                                                          : others.velocity;
-    const std::optional<double> acceleration =
-        first.acceleration ? first.acceleration : others.acceleration;
-    if (!velocity) {
-      refuse_missing(name, "velocity");
-    }
-    if (!acceleration) {
-      refuse_missing(name, "acceleration");
-    }
-    limits.push_back({*velocity, *acceleration, first.jerk ? first.jerk : others.jerk});
+    limits.push_back(sources.limits(name));
   }
   require_limits(joint_names, limits);
   return limits;

@@ -45,8 +45,11 @@ struct GivenLimits {
 /// For each number the first of these that has it: `given`, the robot (velocities alone), `others`.
 /// A velocity limit of 0 in the robot counts as none, as many files have it for an unknown one.
 ///
-/// @throws std::invalid_argument  names the joint that has no limit of velocity or acceleration,
-///         or one that is not > 0
+/// A joint that others mimic is so slow that each of them keeps its own limits. Those have the same
+/// sources, but of `given` and the robot the smaller velocity counts.
+///
+/// @throws std::invalid_argument  names the joint that has no limit of velocity or acceleration, or
+///         one that is not > 0, or a joint of `given` that the robot does not have
 [[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);
