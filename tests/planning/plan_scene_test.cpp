@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <variant>
 
 #include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
@@ -99,6 +100,30 @@ TEST(ScenePlan, RefusesWhatIsNoPlan) {
   EXPECT_NE(refusal(R"({"body": "pog", "goal": {"position": [0, 0, 1]}})").find("\"peg\""),
             std::string::npos);
   EXPECT_NE(refusal(R"({"goal": {"position": [0, 0, 1]}})").find("what moves"), std::string::npos);
+// Quaternions of four digits are 1e-5 off the length 1.
+TEST(ScenePlan, TakesQuaternionsOfAFewDigits) {
+  const std::string text = kPegOverWall;
+  const std::string start = R"("start": {"position": [-0.5, 0, 0],
+                                         "quaternion_wxyz": [0.7071, 0, 0.7071, 0]}, )";
+  for (const std::string& begin : {std::string(), start}) {
+    const Scene scene = scene_of(
+        text.substr(0, text.find("\"plan\"")) + R"("plan": {"body": "peg", )" + begin +
+        R"("goal": {"position": [0.5, 0.1, 0.25], "quaternion_wxyz": [0, 0, 0.7071, 0.7071]},
+            "time": 20}})");
+    ShapeCache cache;
+    const ScenePlan plan = make_scene_plan(scene, *scene.plan, cache);
+    const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+    ASSERT_EQ(result.verdict, PlanVerdict::proven);
+    EXPECT_EQ(result.path.back()[5], result.path.back()[6]);
+    EXPECT_NEAR(result.path.back()[6], std::sqrt(0.5), 1e-15);
+    // The file begins where its scene has the peg, to the bit: a second proof demands it.
+    const PlannedPath written = planned_path(plan, plan.options, result);
+    const Pose pose = std::get<FixedMotion>(written.scene.bodies[1].motion).pose;
+    const std::vector<double>& first = written.waypoints.front();
+    EXPECT_EQ(pose.rotation.coeffs(), Eigen::Vector4d(first[4], first[5], first[6], first[3]));
+  }
+}
+
   EXPECT_NE(refusal(R"({"body": "peg"})").find("\"goal\""), std::string::npos);
   EXPECT_NE(refusal(R"({"body": "peg", "goals": []})").find("at least one goal"),
             std::string::npos);

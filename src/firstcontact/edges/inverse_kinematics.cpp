@@ -31,8 +31,12 @@ void require_goal(bool condition, const char* what) {
   }
 }
 
+/// Whether a pose names a rigid transform: its quaternion may have any length that is no rounding.
 bool is_pose(const Pose& pose) {
-  return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1.0) <= 1e-6;
+  constexpr double kShortest = 1e-60;
+  constexpr double kLongest = 1e60;
+  const double length = pose.rotation.norm();
+  return pose.position.allFinite() && length >= kShortest && length <= kLongest;
 }
 
 /// The rotation vector of a rotation matrix; of at most half a turn.
@@ -196,7 +200,7 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
       "expected a link of the robot");
   require_goal(start.size() == space.size(), "expected a start with a number for each coordinate");
   require_goal(is_pose(goal.X_WT) && is_pose(goal.X_LT),
-               "expected poses with finite numbers and quaternions of length 1");
+               "expected poses with finite numbers and quaternions that are not zero");
   require_goal(goal.position_tolerance > 0.0 && goal.rotation_tolerance > 0.0,
                "expected tolerances > 0");
   PoseSearch search(space, goal);

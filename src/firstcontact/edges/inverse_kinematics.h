@@ -55,7 +55,7 @@ struct ReachOptions {
 ///           space's length. Without such a place: the nearest one, whose errors are larger. Empty
 ///           where the time was over before the first.
 /// @throws std::invalid_argument for the space of a body, an unknown link, a start of another size,
-///         a pose that is not finite, or a tolerance that is not > 0
+///         a pose that is not finite or has a zero quaternion, or a tolerance that is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(
     const ConfigurationSpace& space, const LinkPoseGoal& goal, const Configuration& start,
     const ReachOptions& options = {});

@@ -98,6 +98,29 @@ void rest_at_start(const PlanQuestion& question, Scene& scene) {
 }
 
 /// The scene with the movers at rest at their start, all else at rest or moving by itself, and the
+/// A pose with a quaternion of length 1, as places of a body have it: rounded decimals are scaled.
+/// One that has this length comes back bit for bit.
+Pose with_unit_quaternion(Pose pose) {
+  constexpr double kUnit = 1e-7;  // Stricter than ConfigurationSpace::defect().
+  if (std::abs(pose.rotation.norm() - 1.0) > kUnit) {
+    pose.rotation.normalize();
+  }
+  return pose;
+}
+
+/// Gives the body that is planned the pose in which it starts.
+void rest_at_start(const PlanQuestion& question, Body& body) {
+  if (question.start_pose) {
+    body.motion = FixedMotion{*question.start_pose};
+  }
+  auto* at_rest = std::get_if<FixedMotion>(&body.motion);
+  if (at_rest == nullptr) {
+    refuse_plan("body " + in_quotes(body.name) +
+                " moves by itself and is to be planned; give it a \"start\" or a pose at rest");
+  }
+  at_rest->pose = with_unit_quaternion(at_rest->pose);
+}
+
 /// margin of the question.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
   const bool keeps_times = what_moves(scene, question).has_value();
@@ -124,12 +147,8 @@ Scene resting_scene(Scene scene, const PlanQuestion& question) {
                   " deforms; expected rigid bodies, among which a path can be proven again");
     }
     body.free.reset();
-    if (question.body == k && question.start_pose) {
-      body.motion = FixedMotion{*question.start_pose};
-    }
-    if (question.body == k && !std::holds_alternative<FixedMotion>(body.motion)) {
-      refuse_plan("body " + in_quotes(body.name) +
-                  " moves by itself and is to be planned; give it a \"start\" or a pose at rest");
+    if (question.body == k) {
+      rest_at_start(question, body);
     }
   }
   scene.options.margin = question.margin.value_or(scene.options.margin);
@@ -334,7 +353,7 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
   Configuration start = configuration_of_pose(std::get<FixedMotion>(body.motion).pose);
   std::vector<Configuration> goals;
   for (const Pose& goal : question.goal_poses) {
-    goals.push_back(configuration_of_pose(goal));
+    goals.push_back(configuration_of_pose(with_unit_quaternion(goal)));
   }
   RobotScene scene = scene_of_body(loaded, mover, space, start);
   PlanScene plan{.scene = std::move(scene), .robots = {0}, .space = std::move(space)};
