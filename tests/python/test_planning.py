@@ -40,6 +40,19 @@ def test_plans_a_path():
     assert checker.check(answer.waypoints[:-1], answer.waypoints[1:]).free.all()
 
 
+@pytest.mark.parametrize("seed", [2**53, 2**63, 2**64, -1, 1.5, "1"])
+def test_seeds_are_whole_numbers_that_a_path_file_holds(seed):
+    with pytest.raises(ValueError, match=r"seed: expected a whole number from 0 to 9007199254740991, got"):
+        fc.plan(SCENE, seed=seed)
+
+
+def test_takes_the_greatest_seed_and_refuses_counts_below_zero():
+    answer = fc.plan(SCENE, seed=np.int64(2**53 - 1))
+    assert json.loads(answer.json)["planner"]["seed"] == 2**53 - 1
+    with pytest.raises(ValueError, match="shortcuts: expected a whole number from 0 to"):
+        fc.plan(SCENE, shortcuts=-1)
+
+
 def test_plans_in_time_among_what_moves():
     poses = [{"position": [0, y, 0]} for y in (0, 4, 0, 0)]
     door = {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},

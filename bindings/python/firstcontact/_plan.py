@@ -3,7 +3,12 @@
 from ._check import SceneLike, load_scene
 from ._core import EdgeChecker, StopSource
 from ._core import plan as _plan
+from ._numbers import whole_number
 from ._tuples import PlanAnswer
+
+_SEEDS = 2**53
+"""Path files hold smaller seeds only: whole numbers that JSON keeps."""
+_COUNTS = 2**31
 
 
 def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None = None,
@@ -14,16 +19,20 @@ def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None =
     The same path as the tool's ``firstcontact plan``. scene: with ``"plan"``: what moves, from
     where, to where. planner: ``rrt_connect`` or ``lazy_prm_star``; contacts: motion in contact of
     ``rrt_connect`` where an edge is blocked: ``none``, ``sample``, ``slide`` or ``both``; seed: of
-    the random numbers; time: [s] at most: in place of the scene's. shortcuts: tries to shorten the
-    path. approximate: without a path, one that ends as near to a goal as was reached. threads: at
-    most, of the proof; 0 for one on each core; the path does not depend on it. stop: ends the search
-    with the best path so far. Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.
+    the random numbers, a whole number below 2**53; time: [s] at most: in place of the scene's.
+    shortcuts: tries to shorten the path. approximate: without a path, one that ends as near to a
+    goal as was reached. threads: at most, of the proof; 0 for one on each core; the path does not
+    depend on it. stop: ends the search with the best path so far. Other threads run meanwhile.
+    Ctrl-C raises KeyboardInterrupt.
 
     ValueError where a start or all goals are not free, with the pair, its depth and the nearest free
     place that was found.
     """
+    if seed is not None:
+        seed = whole_number(seed, "seed", _SEEDS)
     return _plan(load_scene(scene), planner=planner, contacts=contacts, seed=seed, time=time,
-                 shortcuts=shortcuts, approximate=approximate, threads=threads, stop=stop)
+                 shortcuts=whole_number(shortcuts, "shortcuts", _COUNTS), approximate=approximate,
+                 threads=threads, stop=stop)
 
 
 __all__ = ["EdgeChecker", "plan"]

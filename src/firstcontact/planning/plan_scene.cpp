@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -97,7 +98,6 @@ void rest_at_start(const PlanQuestion& question, Scene& scene) {
   }
 }
 
-/// The scene with the movers at rest at their start, all else at rest or moving by itself, and the
 /// A pose with a quaternion of length 1, as places of a body have it: rounded decimals are scaled.
 /// One that has this length comes back bit for bit.
 Pose with_unit_quaternion(Pose pose) {
@@ -121,6 +121,7 @@ void rest_at_start(const PlanQuestion& question, Body& body) {
   at_rest->pose = with_unit_quaternion(at_rest->pose);
 }
 
+/// The scene with the movers at rest at their start, all else at rest or moving by itself, and the
 /// margin of the question.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
   const bool keeps_times = what_moves(scene, question).has_value();
@@ -415,6 +416,11 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   }
   if (scene.plan.space.has_screws()) {
     refuse_plan("expected straight edges of the body; a path file holds no screws");
+  }
+  constexpr std::uint64_t kSeeds = std::uint64_t{1} << 53;  // Whole numbers that JSON keeps.
+  if (options.seed >= kSeeds) {
+    refuse_plan("expected a seed below 2^53, which a path file holds, got " +
+                std::to_string(options.seed));
   }
   PlannedPath path;
   const Scene& resting = scene.loaded.scene;

@@ -48,7 +48,8 @@ struct ScenePlan {
 ///
 /// @param options  with which the path was planned
 /// @param result   with a path
-/// @throws std::invalid_argument without a path, or if its edges are screws
+/// @throws std::invalid_argument without a path, if its edges are screws, or if the seed is 2^53 or
+///         more
 [[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
                                                         const PlanOptions& options,
                                                         const PlanResult& result);
