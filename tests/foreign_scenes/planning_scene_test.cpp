@@ -320,7 +320,20 @@ TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {
             ".dimensions[0]: expected a number >= 0, got -1");
   EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: trun, position: 1}]}]"),
             "r.yaml:1: goal_constraints[0].joint_constraints[0].joint_name: expected a joint of "
-            "robot \"crane\", got \"trun\"; did you mean \"turn\"?");
+            "the robot, got \"trun\"; did you mean \"turn\"?");
+  const std::string goal =
+      "goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}]}]";
+  EXPECT_EQ(message("path_constraints: {joint_constraints: [{joint_name: turn}]}\n" + goal),
+            "r.yaml:1: path_constraints.joint_constraints: expected no constraints along the path: "
+            "they are not supported");
+  EXPECT_EQ(message("trajectory_constraints: {constraints: [{}, {joint_constraints: [{joint_name: "
+                    "turn}]}]}\n" +
+                    goal),
+            "r.yaml:1: trajectory_constraints.constraints[1].joint_constraints: expected no "
+            "constraints of the trajectory: they are not supported");
+  EXPECT_EQ(message("trajectory_constraints: {constraints: [{name: '', joint_constraints: []}]}\n" +
+                    goal),
+            "accepted");
   EXPECT_EQ(message("start_state: {joint_state: {name: [trun], position: [1]}}"),
             "r.yaml:1: start_state.joint_state.name[0]: expected a joint of robot \"crane\", got "
             "\"trun\"; did you mean \"turn\"?");

@@ -68,18 +68,33 @@ const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
   return list.front();
 }
 
+/// Refuses a message of constraints that has some.
+///
+/// @param where  they hold, for errors: "along the path"
+void refuse_constraints(const JsonValue& constraints, const std::string& where,
+                        const JsonReader& read) {
+  for (const char* key : {"joint_constraints", "position_constraints", "orientation_constraints",
+                          "visibility_constraints"}) {
+    if (const JsonValue* some = find_filled(constraints, key)) {
+      read.fail(*some, "expected no constraints " + where + ": they are not supported");
+    }
+  }
+}
+
 /// Refuses constraints that nothing here would keep.
 void refuse_other_constraints(const JsonValue& request, const JsonValue& goal,
                               const JsonReader& read) {
   if (const JsonValue* visible = find_filled(goal, "visibility_constraints")) {
     read.fail(*visible, "expected no constraints of visibility: they are not supported");
   }
-  const JsonValue* along = find_filled(request, "path_constraints");
-  for (const char* key : {"joint_constraints", "position_constraints", "orientation_constraints",
-                          "visibility_constraints"}) {
-    const JsonValue* some = along == nullptr ? nullptr : find_filled(*along, key);
-    if (some != nullptr) {
-      read.fail(*some, "expected no constraints along the path: they are not supported");
+  if (const JsonValue* along = find_filled(request, "path_constraints")) {
+    refuse_constraints(*along, "along the path", read);
+  }
+  const JsonValue* trajectory = find_filled(request, "trajectory_constraints");
+  const JsonValue* list = trajectory == nullptr ? nullptr : find_filled(*trajectory, "constraints");
+  if (list != nullptr) {
+    for (const JsonValue& constraints : read.array(*list, "an array of constraints")) {
+      refuse_constraints(constraints, "of the trajectory", read);
     }
   }
 }
