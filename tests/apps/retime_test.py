@@ -217,7 +217,7 @@ class RetimeSeveralRobots(tool_test.ToolTest):
                             'path.json: joint "left/panda_joint1": expected a limit of the acceleration, got none')
         bare = self.file("bare.yaml", self.limits_of([name.split("/")[1] for name in self.NAMES[:7]]))
         self.assert_refused(self.retime("--limits", bare),
-                            'bare.yaml:2: joint_limits.panda_joint1: expected a joint of robot "left and right", '
+                            'bare.yaml:2: joint_limits.panda_joint1: expected a joint of the robot, '
                             'got "panda_joint1"; did you mean "left/panda_joint1"?')
         of_one = self.file("left.yaml", self.limits_of(self.NAMES[:7]))
         self.assert_refused(self.retime("--limits", of_one),

@@ -677,7 +677,7 @@ class Robot(ToolTest):
                 (["--trajectory", bad], f'{bad}:3: column "time": expected one point at 0 s, got a second one '
                                         'with position 1 of "elbow" in place of 0'),
                 (["--unwrap"], f"{self.robot}: expected a trajectory, whose whole turns unwrap takes out, got none"),
-                (["--trajectory", misspelt], f'{misspelt}:1: column "elbov": expected a joint of robot "arm", '
+                (["--trajectory", misspelt], f'{misspelt}:1: column "elbov": expected a joint of the robot, '
                                              'got "elbov"; did you mean "elbow"?'),
                 (["--trajectory", self.move, "--strict"],
                  f"{self.move}: expected a motion within the joint limits, but arm: joint \"elbow\" leaves its "

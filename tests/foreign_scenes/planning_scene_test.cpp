@@ -335,7 +335,7 @@ TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {
                     goal),
             "accepted");
   EXPECT_EQ(message("start_state: {joint_state: {name: [trun], position: [1]}}"),
-            "r.yaml:1: start_state.joint_state.name[0]: expected a joint of robot \"crane\", got "
+            "r.yaml:1: start_state.joint_state.name[0]: expected a joint of the robot, got "
             "\"trun\"; did you mean \"turn\"?");
   EXPECT_EQ(message("start_state: {joint_state: {name: [turn], position: [.nan]}}"),
             "r.yaml:1: start_state.joint_state.position[0]: expected a number, got \".nan\"");

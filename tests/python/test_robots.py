@@ -107,7 +107,7 @@ def test_bad_trajectories_are_errors(arguments, complaint):
 
 
 def test_unknown_joints_are_errors(scene):
-    with pytest.raises(ValueError, match='expected a joint of robot "arm", got "elbo"; did you mean "elbow"'):
+    with pytest.raises(ValueError, match='expected a joint of the robot, got "elbo"; did you mean "elbow"'):
         scene.check(fc.Trajectory(["elbo"], [0], [[0]]))
 
 

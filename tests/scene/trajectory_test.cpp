@@ -122,7 +122,22 @@ TEST(JointMotions, RefuseWhatMakesNoMotion) {
   EXPECT_EQ(refusal({.joint_names = {"turn", "turn"}, .points = {{0.0, {1.0, 1.0}, {}, {}}}}),
             "joint \"turn\": expected each joint once, got it twice");
   EXPECT_EQ(refusal(turning({{0.0, {1.0}, {}, {}}}), {{"trun", 0.2}}),
-            "expected a joint of robot \"crane\", got \"trun\"; did you mean \"turn\"?");
+            "expected a joint of the robot, got \"trun\"; did you mean \"turn\"?");
+}
+
+TEST(FindCoordinate, SaysSoWhereNoJointHasOne) {
+  const RobotModel robot(
+      {.name = "floater",
+       .links = {{"world", {}, {}}, {"tool", {}, {}}},
+       .joints = {
+           {.name = "free", .type = JointType::floating, .parent = "world", .child = "tool"}}});
+  try {
+    (void)find_coordinate(robot, "free/x");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "expected a joint of the robot, got \"free/x\"; it has no joint with a coordinate");
+  }
 }
 
 }  // namespace

@@ -254,8 +254,8 @@ TEST_F(QuestionRules, SaysWhatAreNoSurroundings) {
       "robot_state: {attached_collision_objects: [{link_name: tap, object: {id: rod, "
       "header: {frame_id: tap}, primitives: [{type: sphere, dimensions: [1]}]}}]}\nworld: {}\n");
   EXPECT_EQ(said(among({"held.yaml"})), at("held.yaml") +
-                                            ": attached object \"rod\": expected a link of robot "
-                                            "\"arm\", got \"tap\"");
+                                            ": attached object \"rod\": expected a link of the "
+                                            "robot, got \"tap\"");
 }
 
 // Bodies that move without times move over the whole scene: its duration is theirs.

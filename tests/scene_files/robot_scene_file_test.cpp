@@ -161,13 +161,13 @@ TEST_F(RobotSceneFile, SaysWhatIsWrong) {
             "s.json:2: robots[0].trajectory: expected a trajectory file, found none at "
             "\"none.csv\"");
   EXPECT_EQ(error_of(with_ball(R"(, "trajectory": {"joint_names": ["elbov"], "points": []})")),
-            "s.json:2: robots[0].trajectory.joint_names[0]: expected a joint of robot \"arm\", got "
+            "s.json:2: robots[0].trajectory.joint_names[0]: expected a joint of the robot, got "
             "\"elbov\"; did you mean \"elbow\"?");
   EXPECT_EQ(error_of(with_ball(R"(, "srdf": "arm.srdf", "state": "haf")")),
             "s.json:2: robots[0].state: expected a state of the SRDF, got \"haf\"; it has "
             "\"all/half\"");
   EXPECT_EQ(error_of(with_ball(R"(, "padding": {"tipp": 1})")),
-            "s.json:2: robots[0].padding.tipp: expected a link of robot \"arm\", got \"tipp\"; did "
+            "s.json:2: robots[0].padding.tipp: expected a link of the robot, got \"tipp\"; did "
             "you mean \"tip\"?");
   EXPECT_EQ(error_of(with_ball(R"(, "tracking_error": {"weld": 1})")),
             "s.json:2: robots[0].tracking_error.weld: expected the name of a joint that moves by "

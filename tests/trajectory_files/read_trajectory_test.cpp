@@ -153,11 +153,10 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithNames) {
       "\"turn\", \"lift\", \"rail/x\", \"rail/y\", \"rail/theta\", \"follow\"";
   expect_trajectory_messages({
       {"t.json", R"({"joint_names": ["trun"], "points": []})",
-       "t.json:1: joint_names[0]: expected a joint of robot \"crane\", got \"trun\"; did you mean "
+       "t.json:1: joint_names[0]: expected a joint of the robot, got \"trun\"; did you mean "
        "\"turn\"?"},
       {"t.json", R"({"joint_names": ["knee"], "points": []})",
-       "t.json:1: joint_names[0]: expected a joint of robot \"crane\", got \"knee\"; it has " +
-           joints},
+       "t.json:1: joint_names[0]: expected a joint of the robot, got \"knee\"; it has " + joints},
       {"t.yaml", "joint_names:\n- turn\n- turn\npoints: []\n",
        "t.yaml:3: joint_names[1]: expected each joint once, got \"turn\" again"},
       {"t.json", R"({"joint_names": ["weld"], "points": [{"time": 0, "positions": [0]}]})",
@@ -277,7 +276,7 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithTables) {
       {"t.csv", "time,turn\n",
        "t.csv:1: expected at least one line of numbers after the header, got none"},
       {"t.csv", "time,trun\n",
-       "t.csv:1: column \"trun\": expected a joint of robot \"crane\", got \"trun\"; did you mean "
+       "t.csv:1: column \"trun\": expected a joint of the robot, got \"trun\"; did you mean "
        "\"turn\"?"},
       {"t.csv", "time,turn,turn\n",
        "t.csv:1: column \"turn\": expected each joint once, got it again"},

@@ -216,10 +216,9 @@ TEST(MalformedTable, ShowsWholeCharactersOfALongLine) {
 // A name that is no joint stays an error, whatever separates the columns.
 TEST(MalformedTable, NamesColumnsThatTheRobotDoesNotHave) {
   for (const std::string separator : {",", ";", "\t", " "}) {
-    EXPECT_EQ(
-        table_error("time" + separator + "trun\n0" + separator + "0\n"),
-        "t.csv:1: column \"trun\": expected a joint of robot \"crane\", got \"trun\"; did you "
-        "mean \"turn\"?");
+    EXPECT_EQ(table_error("time" + separator + "trun\n0" + separator + "0\n"),
+              "t.csv:1: column \"trun\": expected a joint of the robot, got \"trun\"; did you "
+              "mean \"turn\"?");
   }
 }
 

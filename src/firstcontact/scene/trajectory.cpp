@@ -43,11 +43,12 @@ std::optional<JointCoordinate> find_planar(const RobotModel& robot, std::string_
   }
   const std::vector<std::string_view> known(names.begin(), names.end());
   const std::string_view nearest = detail::nearest_word(name, known);
-  throw std::invalid_argument("expected a joint of robot " + detail::in_quotes(robot.name()) +
-                              ", got " + detail::in_quotes(name) + "; " +
-                              (nearest.empty()
-                                   ? "it has " + detail::listed(known)
-                                   : "did you mean " + detail::in_quotes(nearest) + "?"));
+  // Without the robot's name: that of its URDF may be another one than the scene's.
+  throw std::invalid_argument(
+      "expected a joint of the robot, got " + detail::in_quotes(name) + "; " +
+      (known.empty()     ? "it has no joint with a coordinate"
+       : nearest.empty() ? "it has " + detail::listed(known)
+                         : "did you mean " + detail::in_quotes(nearest) + "?"));
 }
 
 /// The numbers of one coordinate of a trajectory, by points.

@@ -292,8 +292,7 @@ class SceneBuilder {
                              const std::string& place) {
     const auto found = robot.model.find_link(name);
     if (!found) {
-      refuse(place + ": expected a link of robot " + in_quotes(robot.model.name()) + ", got " +
-             in_quotes(name));
+      refuse(place + ": expected a link of the robot, got " + in_quotes(name));
     }
     return *found;
   }

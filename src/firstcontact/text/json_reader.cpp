@@ -63,6 +63,9 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
 }
 
 std::string listed(const std::vector<std::string_view>& words) {
+  if (words.empty()) {
+    return "none";
+  }
   std::string text;
   for (const std::string_view word : words) {
     text += (text.empty() ? "" : ", ") + in_quotes(word);

@@ -75,7 +75,7 @@ class JsonReader {
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             const std::vector<std::string_view>& words);
 
-/// "a, b, c".
+/// "a, b, c"; "none" of no words.
 [[nodiscard]] std::string listed(const std::vector<std::string_view>& words);
 
 }  // namespace firstcontact::detail

@@ -210,8 +210,7 @@ class RobotReader {
       known.push_back(link.name);
     }
     const std::string_view nearest = nearest_word(name, known);
-    read_.fail(value, "expected a link of robot " + in_quotes(model.name()) + ", got " +
-                          in_quotes(name) + "; " +
+    read_.fail(value, "expected a link of the robot, got " + in_quotes(name) + "; " +
                           (nearest.empty() ? "it has " + listed(known)
                                            : "did you mean " + in_quotes(nearest) + "?"));
   }
