@@ -55,45 +55,43 @@ std::vector<Eigen::Vector3d> directions_of_cube() {
 }
 
 /// The scene with its movers at a place.
-RobotScene placed_scene(const EdgeChecker& checker, const Configuration& q) {
-  RobotScene scene = checker.scene().scene;
-  checker.scene().set_motions(scene, q, q);
+RobotScene placed_scene(const PlaceTest& test, const Configuration& q) {
+  RobotScene scene = test.scene.scene;
+  test.scene.set_motions(scene, q, q);
   return scene;
 }
 
 /// [m]  What a pair is held to in place of its margin.
-std::optional<double> held_distance(const EdgeChecker& checker, const BodyPair& pair) {
-  const std::vector<HeldPair>& held = checker.options().held;
+std::optional<double> held_distance(const PlaceTest& test, const BodyPair& pair) {
+  const std::vector<HeldPair>& held = test.options.held;
   const auto found = std::ranges::find(held, pair, &HeldPair::members);
   return found == held.end() ? std::nullopt : std::optional(found->distance);
 }
 
 /// Halves the way to a free place as long as its middle is free, or the other half of it.
-Configuration nearer_place(const EdgeChecker& checker, Configuration blocked, Configuration best) {
+Configuration nearer_place(const PlaceTest& test, Configuration blocked, Configuration best) {
   for (int k = 0; k < kHalvingsToFree; ++k) {
-    Configuration middle = checker.space().interpolate(blocked, best, 0.5);
-    (checker.is_free(middle) ? best : blocked) = std::move(middle);
+    Configuration middle = test.scene.space.interpolate(blocked, best, 0.5);
+    (test.is_free(middle) ? best : blocked) = std::move(middle);
   }
   return best;
 }
 
 /// A free place on a straight way; of all directions the one with the shortest, but for a factor
 /// of 2.
-std::optional<Configuration> free_place_straight_from(const EdgeChecker& checker,
-                                                      const Configuration& q,
+std::optional<Configuration> free_place_straight_from(const PlaceTest& test, const Configuration& q,
                                                       RandomNumbers& random) {
-  const ConfigurationSpace& space = checker.space();
+  const ConfigurationSpace& space = test.scene.space;
   const std::vector<Eigen::VectorXd> directions = directions_at(space, q, random);
-  double way = checker.options().tolerance;
+  double way = test.options.tolerance;
   for (int k = 0; k < kWayDoublings; ++k, way *= 2.0) {
     std::optional<Configuration> best;
     for (const Eigen::VectorXd& direction : directions) {
       const Configuration place = behind_way(space, q, direction, way);
-      if (space.defect(place) || !checker.is_free(place)) {
+      if (space.defect(place) || !space.is_in_box(place) || !test.is_free(place)) {
         continue;
       }
-      Configuration nearer =
-          nearer_place(checker, behind_way(space, q, direction, 0.5 * way), place);
+      Configuration nearer = nearer_place(test, behind_way(space, q, direction, 0.5 * way), place);
       if (!best || space.distance(q, nearer) < space.distance(q, *best)) {
         best = std::move(nearer);
       }
@@ -115,17 +113,17 @@ std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) 
   return text;
 }
 
-}  // namespace
-
-std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members) {
+/// [m]  The shortest straight way, of 26 directions, on which the first shape leaves the second one
+/// for good: an upper bound of how deep the two are in each other. None where it was not found.
+std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members, double t) {
   Workspace workspace;
   double deepest = 0.0;
   for (std::size_t a = 0; a < scene.geometries(members[0]).size(); ++a) {
     for (std::size_t b = 0; b < scene.geometries(members[1]).size(); ++b) {
       const Shape& A = scene.geometries(members[0])[a].shape;
       const Shape& B = scene.geometries(members[1])[b].shape;
-      const Pose X_WA = scene.geometry_pose(members[0], a, 0.0);
-      const Pose X_WB = scene.geometry_pose(members[1], b, 0.0);
+      const Pose X_WA = scene.geometry_pose(members[0], a, t);
+      const Pose X_WB = scene.geometry_pose(members[1], b, t);
       if (distance({A, Motion::fixed(X_WA)}, {B, Motion::fixed(X_WB)}, 0.0, workspace).distance >
           0.0) {
         continue;  // Near, or all around: what does not meet has no depth.
@@ -141,10 +139,12 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members)
   return std::isfinite(deepest) ? std::optional(deepest) : std::nullopt;
 }
 
-std::optional<Configuration> free_place_near(const EdgeChecker& checker, const Configuration& q) {
-  const ConfigurationSpace& space = checker.space();
+/// A free place near to one that is not: on a straight way along an axis or in a random direction,
+/// else the nearest of some thousand random places.
+std::optional<Configuration> free_place_near(const PlaceTest& test, const Configuration& q) {
+  const ConfigurationSpace& space = test.scene.space;
   RandomNumbers random(1);
-  if (std::optional<Configuration> place = free_place_straight_from(checker, q, random)) {
+  if (std::optional<Configuration> place = free_place_straight_from(test, q, random)) {
     return place;
   }
   double share = kFirstRing;
@@ -155,34 +155,42 @@ std::optional<Configuration> free_place_near(const EdgeChecker& checker, const C
       const Configuration towards = space.sample(random);
       const Configuration place = space.interpolate(q, towards, share * random.uniform());
       const double distance = space.distance(q, place);
-      if (distance < least && checker.is_free(place)) {
+      if (distance < least && test.is_free(place)) {
         least = distance;
         best = place;
       }
     }
     if (best) {
-      return nearer_place(checker, q, *best);
+      return nearer_place(test, q, *best);
     }
   }
   return std::nullopt;
 }
 
-std::string describe_pair(const EdgeChecker& checker, const Configuration& q, const BodyPair& pair,
+}  // namespace
+
+PlaceTest test_of(const EdgeChecker& checker) {
+  return {.scene = checker.scene(),
+          .options = checker.options(),
+          .is_free = [&checker](const Configuration& q) { return checker.is_free(q); }};
+}
+
+std::string describe_pair(const PlaceTest& test, const Configuration& q, const BodyPair& pair,
                           const std::string& what) {
-  const PlanScene& scene = checker.scene();
-  const RobotScene placed = placed_scene(checker, q);
+  const PlanScene& scene = test.scene;
+  const RobotScene placed = placed_scene(test, q);
   std::string text =
       what + ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
-  const std::optional<double> depth = depth_of(placed, pair);
+  const std::optional<double> depth = depth_of(placed, pair, test.t);
   if (depth && *depth > 0.0) {
     text += " touch, up to " + quantity(*depth, "m") + " deep";
-  } else if (const std::optional<double> held = held_distance(checker, pair)) {
+  } else if (const std::optional<double> held = held_distance(test, pair)) {
     text += " are no farther apart than " + quantity(*held, "m") + ", which contact_pairs keeps";
   } else {
     text += " are within their margin of " + quantity(placed.margin(pair).value_or(0.0), "m");
   }
-  if (const std::optional<Configuration> place = free_place_near(checker, q)) {
-    text += "; the nearest free place that was found is at " + numbers_of(checker.space(), *place);
+  if (const std::optional<Configuration> place = free_place_near(test, q)) {
+    text += "; the nearest free place that was found is at " + numbers_of(test.scene.space, *place);
   } else {
     text += "; no free place was found near it";
   }
@@ -196,7 +204,7 @@ std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
   if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
     return text + ": it was not decided with the effort that is allowed";
   }
-  return describe_pair(checker, q, *answer.pair, text);
+  return describe_pair(test_of(checker), q, *answer.pair, text);
 }
 
 }  // namespace firstcontact::detail

@@ -94,7 +94,7 @@ void ContactEnds::measure(const PlanScene& plan, const ContactPair& pair,
     const EdgeChecker checker(
         plan, {.tolerance = tolerance, .extra_clearance = kept, .held = std::move(barely)});
     throw std::invalid_argument(
-        describe_pair(checker, *touching.front(), pair.members, end + " is not free") +
+        describe_pair(test_of(checker), *touching.front(), pair.members, end + " is not free") +
         "; a contact pair has to be apart, as a distance of 0 leaves nothing to hold: by " +
         quantity(tolerance, "m") + " in the place that was found");
   }

@@ -9,6 +9,7 @@
 
 #include <firstcontact/edges/detail/edge_question.h>
 #include <firstcontact/math/random_numbers.h>
+#include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/timed_connect.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 #include <firstcontact/robot_check/check_robots.h>
@@ -40,10 +41,11 @@ class PlanInTime {
       : scene_(scene),
         options_(options),
         begin_(Clock::now()),
-        edges_(scene, {.tolerance = options.tolerance,
-                       .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
-                       .effort = options.effort,
-                       .stop = options.stop}) {}
+        asked_of_edges_{.tolerance = options.tolerance,
+                        .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
+                        .effort = options.effort,
+                        .stop = options.stop},
+        edges_(scene, asked_of_edges_) {}
 
   PlanResult run(const Configuration& start, const std::vector<Configuration>& goals,
                  double range) {
@@ -90,20 +92,28 @@ class PlanInTime {
     }
   }
 
+  /// @param what  "the start, at the time 0,"
+  [[noreturn]] void refuse(const TimedPlace& place, const EdgeFound& found,
+                           const std::string& what) {
+    const std::string text = what + " is not free";
+    if (found.verdict == Verdict::undecided || !found.pair) {
+      throw std::invalid_argument(text + ": it was not decided with the effort that is allowed");
+    }
+    const auto is_free = [&](const Configuration& q) {
+      return edges_.at({q, place.t}).verdict == Verdict::free;
+    };
+    const PlaceTest test{scene_, asked_of_edges_, is_free, place.t / edges_.duration()};
+    throw std::invalid_argument(describe_pair(test, place.q, *found.pair, text));
+  }
+
   /// False where the search was stopped.
   bool require_free(const Configuration& start, const std::vector<Configuration>& goals) {
-    const auto refuse = [&](const EdgeFound& found, const std::string& what) {
-      const std::string pair = found.pair ? scene_.name((*found.pair)[0]) + " and " +
-                                                scene_.name((*found.pair)[1]) +
-                                                " are in contact or nearer than their margin"
-                                          : "it could not be decided";
-      throw std::invalid_argument(what + " is not free: " + pair);
-    };
-    if (const EdgeFound found = edges_.at({start, 0.0}); found.verdict != Verdict::free) {
+    const TimedPlace first{start, 0.0};
+    if (const EdgeFound found = edges_.at(first); found.verdict != Verdict::free) {
       if (options_.stop.stop_requested()) {
         return false;
       }
-      refuse(found, "the start, at the time 0,");
+      refuse(first, found, "the start, at the time 0,");
     }
     EdgeFound last;
     for (const Configuration& goal : goals) {
@@ -112,9 +122,9 @@ class PlanInTime {
         return !options_.stop.stop_requested();
       }
     }
-    refuse(last, goals.size() == 1 ? "the goal, at the end of the time,"
-                                   : "each goal, at the end of the time,");
-    return false;
+    refuse({goals.back(), edges_.duration()}, last,
+           goals.size() == 1 ? "the goal, at the end of the time,"
+                             : "each goal, at the end of the time,");
   }
 
   /// Proves the whole motion anew, in one piece.
@@ -157,6 +167,7 @@ class PlanInTime {
   const PlanScene& scene_;
   const PlanOptions& options_;
   Clock::time_point begin_;
+  EdgeCheckOptions asked_of_edges_;
   TimedEdges edges_;
   std::size_t asked_ = 0;
 };
