@@ -205,6 +205,17 @@ TEST(PlanPath, NamesThePairOfAStartThatIsNotFree) {
   EXPECT_NE(message_of(scene, kBefore, {touching}).find("the goal is not free"), std::string::npos);
 }
 
+// A gap of 1.5 um is more than the margin of 0, but less than what the search keeps.
+TEST(PlanPath, NamesTheTolerancesThatAStartIsWithin) {
+  const PlanScene scene = with_gantry(thin_wall(0.0));
+  const std::string near = message_of(scene, {-0.1 - 5e-6 - 1.5e-6, 0.3, 0.0}, {kBefore});
+  EXPECT_NE(near.find("are no farther apart than their margin of 0 m and 3.001e-06 m for the "
+                      "tolerances of the search (move them apart, or take a smaller margin or "
+                      "tolerance); the nearest free place"),
+            std::string::npos)
+      << near;
+}
+
 TEST(PlanPath, RefusesWhatCannotBePlanned) {
   const PlanScene scene = with_gantry(thin_wall(0.4));
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -103,6 +103,28 @@ std::optional<Configuration> free_place_straight_from(const PlaceTest& test, con
   return std::nullopt;
 }
 
+bool has_tracking_errors(const RobotScene& scene) {
+  const auto is_error = [](const TrackingError& error) {
+    return error.angle > 0.0 || error.distance > 0.0;
+  };
+  for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
+    if (std::ranges::any_of(scene.tracking_errors(robot), is_error)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// How near a pair is that does not touch: all that the test of places adds up, and the mend.
+std::string too_near(const PlaceTest& test, const RobotScene& placed, const BodyPair& pair) {
+  const double tolerances = test.options.extra_clearance + test.options.tolerance;
+  return " are no farther apart than their margin of " +
+         quantity(placed.margin(pair).value_or(0.0), "m") + " and " + quantity(tolerances, "m") +
+         " for the tolerances of the search" +
+         (has_tracking_errors(placed) ? ", tracking errors added" : "") +
+         " (move them apart, or take a smaller margin or tolerance)";
+}
+
 std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) {
   std::string text;
   for (std::size_t k = 0; k < q.size(); ++k) {
@@ -187,7 +209,7 @@ std::string describe_pair(const PlaceTest& test, const Configuration& q, const B
   } else if (const std::optional<double> held = held_distance(test, pair)) {
     text += " are no farther apart than " + quantity(*held, "m") + ", which contact_pairs keeps";
   } else {
-    text += " are within their margin of " + quantity(placed.margin(pair).value_or(0.0), "m");
+    text += too_near(test, placed, pair);
   }
   if (const std::optional<Configuration> place = free_place_near(test, q)) {
     text += "; the nearest free place that was found is at " + numbers_of(test.scene.space, *place);
