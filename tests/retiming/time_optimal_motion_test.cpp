@@ -185,6 +185,27 @@ TEST(TimeOptimalMotion, HoldsJerkLimits) {
   RecordProperty("mean", std::to_string(found.mean));
 }
 
+// With a hundredth of the velocity and 1e-4 of the acceleration all takes a hundred times as long.
+TEST(TimeOptimalMotion, HasAsManyPointsHoweverSlowItIs) {
+  std::mt19937 rng(3);
+  const WaypointPath path = random_path(rng, 3, 4, 1.0);
+  const std::vector<RateLimits> fast = random_limits(rng, 3, false);
+  std::vector<RateLimits> slow = fast;
+  for (RateLimits& limit : slow) {
+    limit.velocity *= 1e-2;
+    limit.acceleration *= 1e-4;
+  }
+  const auto motion = [&](const std::vector<RateLimits>& limits) {
+    const std::vector<double> longest(path.waypoints.size() - 2, kLongestBlend);
+    return time_optimal_motion(blend_motion(path, limits, longest), path, limits).motion;
+  };
+  const TimedMotion quick = motion(fast);
+  const TimedMotion long_one = motion(slow);
+  EXPECT_GT(long_one.duration(), 90.0 * quick.duration());
+  EXPECT_LT(long_one.duration(), 101.0 * quick.duration());
+  EXPECT_LE(long_one.points.size(), 1100u * (path.waypoints.size() - 1));
+}
+
 // A straight edge is the closed form: the grid agrees with it.
 TEST(TimeOptimalMotion, TheGridOfTheTestIsRight) {
   const WaypointPath path{{"j0"}, {{0.0}, {4.0}}};

@@ -58,7 +58,7 @@ class StretchTimer {
     constexpr std::array<double, 5> kWindows{0.008, 0.016, 0.032, 0.064, 0.128};  // [s]
     std::optional<Stretch> best;
     for (const double window : kWindows) {
-      Stretch stretch = averaged(window);
+      Stretch stretch = averaged(window_scale(kWindows.front()) * window);
       if (!best || stretch.points.back().time < best->points.back().time) {
         best = std::move(stretch);
       }
@@ -67,6 +67,14 @@ class StretchTimer {
   }
 
  private:
+  /// [-]  Low limits slow a motion down, and its windows with it: else the number of points, and
+  /// the work, would grow with the duration.
+  [[nodiscard]] double window_scale(double shortest) const {
+    constexpr double kWindowsPerEdge = 500.0;
+    const auto edges = static_cast<double>(last_ - first_);
+    return std::max(1.0, timing_.duration() / (kWindowsPerEdge * edges * shortest));
+  }
+
   [[nodiscard]] TimedPoint point_at(double t, double window) const {
     const PathTiming::State state = timing_.averaged(t, window);
     const detail::PathPlace place = geometry_.place(state.S);

@@ -15,8 +15,9 @@ namespace firstcontact {
 /// Between two rests the phase plane of velocity and acceleration gives the fastest motion on a
 /// grid. It is averaged over a short window of time, so that its jerk is bounded. The points on it
 /// are joined by quintics, which leave the geometry a little between the points. Then all times are
-/// stretched until the limits hold, by the bounds of rate_report(). Several windows
-/// are tried, and the fastest motion is taken. It is never slower than the blended motion.
+/// stretched until the limits hold, by the bounds of rate_report(). Several windows are tried, and
+/// the fastest motion is taken. It is never slower than the blended motion. Windows are longer
+/// where edges take seconds: the number of points is bounded by that of the edges.
 ///
 /// Limits hold but for the rounding of the numbers to doubles: rate_report() proves them.
 ///
