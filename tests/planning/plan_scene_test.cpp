@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -97,6 +98,26 @@ TEST(ScenePlan, PlansABodyAndWritesItsPath) {
   for (std::size_t k = 0; k + 1 < read.waypoints.size(); ++k) {
     EXPECT_EQ(checker.check(read.waypoints[k], read.waypoints[k + 1]).verdict, EdgeVerdict::free);
     EXPECT_GE(read.clearances[k].value(), 0.01);
+  }
+}
+
+// The tolerance of 1 um is small beside kilometres, so that the least distance takes more effort
+// than is allowed. The clearance was the hair that the proof adds.
+TEST(ScenePlan, HasAClearanceInKilometres) {
+  const Scene scene = scene_of(R"({
+  "firstcontact": 1,
+  "bodies": [
+    {"name": "wall", "shape": {"box": {"size": [1000, 10000, 10000]}}},
+    {"name": "block", "shape": {"box": {"size": [3000, 3000, 3000]}}, "pose": {"position": [-5000, 0, 0]}}
+  ],
+  "plan": {"body": "block", "goal": {"position": [5000, 1000, 0]}, "time": 20}
+})");
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, *scene.plan, cache);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+  for (const std::optional<double>& clearance : result.clearances) {
+    EXPECT_GT(clearance.value(), 0.1);
   }
 }
 

@@ -340,7 +340,11 @@ EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configura
   }
   first = data_->with_held(work, from, to, first,
                            [](detail::EdgeSearch& search) { return search.first_contact(); });
-  return data_->answer(from, to, first, found.clearance);
+  EdgeAnswer answer = data_->answer(from, to, first, found.clearance);
+  if (answer.verdict == EdgeVerdict::free && found.closest) {
+    answer.reason = found.pairs[*found.closest].closest->reason;
+  }
+  return answer;
 }
 
 std::vector<EdgeAnswer> EdgeChecker::check(std::span<const Configuration> from,

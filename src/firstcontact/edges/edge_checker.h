@@ -102,6 +102,7 @@ struct EdgeAnswer {
   /// where the start is not free. None where there is no such pair.
   std::optional<double> clearance = 0.0;
   std::optional<BodyPair> pair = {};  ///< Members that block it, or are undecided.
+  /// Why it is undecided; of a free edge why check_closely() has no nearer clearance.
   UndecidedReason reason = UndecidedReason::none;
 };
 

@@ -31,8 +31,8 @@ constexpr std::uint64_t kLessEffort = 20;
 
 /// [-]  Trees grow to less than a blocked edge's fraction; slides begin where it ends.
 constexpr double kFractionTolerance = 1e-3;
-constexpr int kWiderMargins = 8;  // Each wider than the one before...
-constexpr double kWider = 4.0;    // [-]  ...by this factor, the last one by half of it.
+constexpr int kWiderMargins = 20;  // Each wider than the one before...
+constexpr double kWider = 4.0;     // [-]  ...by this factor, the last one by half of it.
 /// [-]  The least distance is looked for along edges that are proven by such a part of the effort.
 constexpr std::uint64_t kShareOfEasy = 100;
 
@@ -282,16 +282,28 @@ class PlanSearch {
   /// Proves an edge, with a clearance that is near the least distance where that is easy.
   ///
   /// Where surfaces are close to each other over much of themselves, as threads are, the least
-  /// distance costs far more than the proof. A bound by wider and wider margins does without it.
+  /// distance costs far more than the proof. So it does where the tolerance is small beside the
+  /// sizes. A bound by wider and wider margins does without it.
   [[nodiscard]] EdgeAnswer proof_of(const Proof& proof, const Configuration& from,
                                     const Configuration& to) const {
     const EdgeChecker& fresh = proof.fresh;
+    std::optional<double> known;
     if (proof.brief->check(from, to).verdict != EdgeVerdict::undecided) {
       const EdgeAnswer close = fresh.check_closely(from, to);
-      if (close.verdict != EdgeVerdict::undecided) {
+      if (close.reason == UndecidedReason::none) {
         return close;
       }
+      known = close.verdict == EdgeVerdict::free ? close.clearance : std::nullopt;
     }
+    EdgeAnswer best = clearance_by_margins(fresh, from, to);
+    best.clearance = std::max(best.clearance, known);
+    return best;
+  }
+
+  /// Proves an edge, with a clearance by wider and wider margins: at least a quarter of the least
+  /// distance, where the effort is enough for them.
+  [[nodiscard]] EdgeAnswer clearance_by_margins(const EdgeChecker& fresh, const Configuration& from,
+                                                const Configuration& to) const {
     EdgeAnswer best = fresh.check(from, to);
     EdgeCheckOptions asked = fresh.options();
     double extra = options_.extra_clearance + options_.tolerance;
