@@ -28,7 +28,7 @@
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 
-#include "atomic_file.h"
+#include "begun_file.h"
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "haptic_device_choice.h"
@@ -137,32 +137,6 @@ SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const Haptic
   options.fingers.grips = grips_of_device(mapping);
   return options;
 }
-
-/// A file that is begun before the session, if it has a name.
-class BegunFile {
- public:
-  BegunFile() = default;
-  explicit BegunFile(const std::string& path, const std::string& header = "") {
-    if (!path.empty()) {
-      file_.emplace(path);
-      file_->write(header);
-    }
-  }
-  void write(const std::string& text) {
-    if (file_) {
-      file_->write(text);
-    }
-  }
-  void commit() {
-    if (file_) {
-      file_->commit();
-    }
-  }
-  [[nodiscard]] bool is_open() const { return file_.has_value(); }
-
- private:
-  std::optional<AtomicFile> file_;
-};
 
 class HapticsRun {
  public:
