@@ -143,6 +143,7 @@ class IslandPlanner {
   void follow_ties();
   [[nodiscard]] bool repeat_forces_of_ties();
   [[nodiscard]] bool mix_forces_of_ties();
+  [[nodiscard]] bool turns_wildly() const;
   [[nodiscard]] Eigen::VectorXd changes_of_ties() const;
   void predict_ties(const Eigen::VectorXd& impulses);
   void forget_ties();

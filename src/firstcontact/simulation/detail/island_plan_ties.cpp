@@ -19,6 +19,11 @@ namespace {
 /// [-]  Changes of forces that grow by more from one round to the next never become small.
 constexpr double kGrowthOfTies = 1.5;
 
+/// [-]  Impulses are no greater than so many times those that act where flights end.
+constexpr double kGrowthOfMixed = 10.0;
+/// [rad]  No flight that ties act in turns farther.
+constexpr double kWildTurn = 3.0;
+
 }  // namespace
 
 /// The rows of ties for where the bodies fly.
@@ -83,27 +88,39 @@ bool IslandPlanner::repeat_forces_of_ties() {
       return true;
     }
     const bool is_last = round + 1 == kMostRoundsOfTies;
-    if (!is_near && (is_last || !(change <= kGrowthOfTies * before))) {
+    if ((!is_near && (is_last || !(change <= kGrowthOfTies * before))) || turns_wildly()) {
       return false;
     }
     before = change;
     predict_ties(ties_.predicted() + changes_of_ties());
   }
-  return true;
+  return !turns_wildly();
 }
 
 /// Likewise, by mixing. The first guess is no impulse at all, too far from the others to count.
 bool IslandPlanner::mix_forces_of_ties() {
   AndersonMixing mixing;
+  const double most = kGrowthOfMixed * changes_of_ties().norm();
   predict_ties(changes_of_ties());
   for (int round = 0; round < kMostMixedRoundsOfTies; ++round) {
     if (ties_.greatest_change(last_->velocities.ties) <= kMixedChangeOfTies &&
         laid_by_end_ == by_end_) {
       return true;
     }
-    predict_ties(mixing.next(ties_.predicted(), changes_of_ties()));
+    const VectorXd guess = mixing.next(ties_.predicted(), changes_of_ties());
+    if (!(guess.norm() <= most) || turns_wildly()) {  // Flights would turn without end.
+      return false;
+    }
+    predict_ties(guess);
   }
-  return ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
+  return !turns_wildly() && ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
+}
+
+/// Whether a flight turns much farther than plans of tied bodies do.
+bool IslandPlanner::turns_wildly() const {
+  return std::ranges::any_of(flight_.rotation_vectors, [](const Eigen::Vector3d& turn) {
+    return !(turn.norm() <= kWildTurn);
+  });
 }
 
 /// Those that the last solution found.
@@ -167,12 +184,14 @@ void IslandPlanner::settle_ties(Plan& plan) const {
     if (!(way.residual < off)) {
       return;
     }
-    double farthest = 0.0;
+    double farthest = 0.0;     // [m]
+    double most_turned = 0.0;  // [rad]
     for (std::size_t k = 0; k < state_.size(); ++k) {
       farthest = std::max(farthest, way.bodies[k].v.norm());
+      most_turned = std::max(most_turned, way.bodies[k].w.norm());
     }
-    if (!(farthest <= kFarthestOfGap * off)) {  // Near a singular position.
-      return;
+    if (!(farthest <= kFarthestOfGap * off) || !(most_turned <= kMostTurnOfTied)) {
+      return;  // Near a singular position.
     }
     for (std::size_t k = 0; k < state_.size(); ++k) {
       plan.moves[k].translation += way.bodies[k].v;
