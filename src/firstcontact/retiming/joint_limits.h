@@ -48,8 +48,8 @@ struct GivenLimits {
 /// A joint that others mimic is so slow that each of them keeps its own limits. Those have the same
 /// sources, but of `given` and the robot the smaller velocity counts.
 ///
-/// @throws std::invalid_argument  names the joint that has no limit of velocity or acceleration, or
-///         one that is not > 0, or a joint of `given` that the robot does not have
+/// @throws std::invalid_argument  names the joint without a limit of velocity or acceleration, or
+///         with one that is not > 0. Also names a joint of `given` that the robot lacks.
 [[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);

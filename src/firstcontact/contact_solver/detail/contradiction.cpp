@@ -26,36 +26,52 @@ double fastest(const ContactRows& rows) {
   return speed;
 }
 
-/// [kg]  That coordinates have for a row, if the least of their velocities that add up to the row's
-/// do it: the row's own response may be of a mass that is smaller by far, as on a long arm.
+/// [kg]  The mass of coordinates for a row that the least of their velocities move. The row's own
+/// response may be that of a mass that is smaller by far: on a long arm a body turns out of the
+/// way.
 double mass_along(const Eigen::VectorXd& J, const Eigen::MatrixXd& mass) {
   const double squared = J.squaredNorm();
   return squared > 0.0 ? J.dot(mass * J) / (squared * squared) : 0.0;
 }
 
-/// [kg]  The greatest mass of a body, and of a mechanism for its contacts and ties.
-double heaviest(const ContactProblem& problem, const ContactRows& rows) {
+/// [kg]  Of the bodies that are no links.
+double heaviest_body(const ContactProblem& problem) {
   double heaviest = 0.0;
   for (const ContactBody& body : problem.bodies) {
     for (const double inverse : body.inverse_inertia.mass) {
       heaviest = !body.link && inverse > 0.0 ? std::max(heaviest, 1.0 / inverse) : heaviest;
     }
   }
+  return heaviest;
+}
+
+/// [kg]  The greatest mass of a mechanism for its contacts and ties.
+///
+/// @param at  its place among the velocities
+double heaviest_along(const ContactRows& rows, const ContactMechanism& mechanism, Eigen::Index at) {
+  const Eigen::MatrixXd mass = mechanism.inverse_mass.inverse();
+  double heaviest = 0.0;
+  for (const ContactRow& row : rows.contacts) {
+    for (const RowSide& side : row.sides) {
+      if (side.is_link() && side.at == at) {
+        heaviest = std::max(heaviest, mass_along(side.J_q.row(0), mass));
+      }
+    }
+  }
+  for (const DriveRow& row : rows.drives) {
+    for (const TieRowSide& side : row.tie) {
+      heaviest = side.at == at ? std::max(heaviest, mass_along(side.J, mass)) : heaviest;
+    }
+  }
+  return heaviest;
+}
+
+/// [kg]  Of bodies, of mechanisms for what touches or ties them, and of drives.
+double heaviest(const ContactProblem& problem, const ContactRows& rows) {
+  double heaviest = heaviest_body(problem);
   for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
-    const Eigen::MatrixXd mass = problem.mechanisms[m].inverse_mass.inverse();
-    const Eigen::Index at = rows.layout.mechanism[m];
-    for (const ContactRow& row : rows.contacts) {
-      for (const RowSide& side : row.sides) {
-        if (side.is_link() && side.at == at) {
-          heaviest = std::max(heaviest, mass_along(side.J_q.row(0), mass));
-        }
-      }
-    }
-    for (const DriveRow& row : rows.drives) {
-      for (const TieRowSide& side : row.tie) {
-        heaviest = side.at == at ? std::max(heaviest, mass_along(side.J, mass)) : heaviest;
-      }
-    }
+    heaviest =
+        std::max(heaviest, heaviest_along(rows, problem.mechanisms[m], rows.layout.mechanism[m]));
   }
   for (const DriveRow& row : rows.drives) {
     heaviest = row.own > 0.0 ? std::max(heaviest, 1.0 / row.own) : heaviest;

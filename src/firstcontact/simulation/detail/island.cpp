@@ -236,6 +236,10 @@ class Island {
     ImpactSearch search(state_, planned_, workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
+      if (!plan.finds_ties && planned_ > kLeastShareOfTied * state_.start.h) {
+        planned_ *= 0.5;
+        return advance();
+      }
       const std::vector<Impact> hits = search.find(plan);
       hit_last_.clear();
       for (const Impact& hit : hits) {

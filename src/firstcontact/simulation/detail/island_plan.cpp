@@ -246,15 +246,14 @@ Plan IslandPlanner::plan() {
     by_end_ = by_end_ || !mean_is_allowed();
     end_spins();
   }
-  if (!ties_.empty()) {
-    follow_ties();
-    end_spins();
-  }
+  const bool finds_ties = ties_.empty() || follow_ties();
+  end_spins();
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies,
             .residual = solution.residual,
             .is_limited = last_->is_limited,
-            .is_solved = last_->slips || is_solved(state_, solution)};
+            .is_solved = last_->slips || is_solved(state_, solution),
+            .finds_ties = finds_ties};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
   const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&

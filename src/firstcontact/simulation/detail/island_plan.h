@@ -69,6 +69,7 @@ struct Plan {
   double residual = 0.0;                 ///< [m/s]
   bool is_limited = false;               ///< Velocities are shorter than contacts would have them.
   bool is_solved = true;                 ///< Contacts have a solution, and it was found.
+  bool finds_ties = true;  ///< Forces of ties were found; a shorter plan may find them.
 
   [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };
@@ -139,13 +140,13 @@ class IslandPlanner {
   [[nodiscard]] std::vector<Eigen::VectorXd> loads_on_robots();
   void fly_bodies();
   void lay_ties();
-  void fly_with_ties();
-  void follow_ties();
+  void solve_where_flown();
+  [[nodiscard]] bool follow_ties();
   [[nodiscard]] bool repeat_forces_of_ties();
   [[nodiscard]] bool mix_forces_of_ties();
   [[nodiscard]] bool turns_wildly() const;
   [[nodiscard]] Eigen::VectorXd changes_of_ties() const;
-  void predict_ties(const Eigen::VectorXd& impulses);
+  [[nodiscard]] bool predict_ties(const Eigen::VectorXd& impulses, double most);
   void forget_ties();
   void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);

@@ -19,10 +19,10 @@ namespace {
 /// [-]  Changes of forces that grow by more from one round to the next never become small.
 constexpr double kGrowthOfTies = 1.5;
 
-/// [-]  Impulses are no greater than so many times those that act where flights end.
-constexpr double kGrowthOfMixed = 10.0;
-/// [rad]  No flight that ties act in turns farther.
-constexpr double kWildTurn = 3.0;
+/// [-]  Impulses that flights have are no longer than so many times those that act where flights
+/// end, and turn a body no farther than so many times its own turn, and [rad] this.
+constexpr double kWildGrowth = 10.0;
+constexpr double kWildTurn = 1.0;
 
 }  // namespace
 
@@ -50,9 +50,8 @@ void IslandPlanner::lay_ties() {
   laid_by_end_ = by_end_;
 }
 
-/// Makes flights and rows anew, and solves.
-void IslandPlanner::fly_with_ties() {
-  fly_bodies();
+/// Makes rows anew where bodies fly, and solves.
+void IslandPlanner::solve_where_flown() {
   if (state_.robots.empty()) {
     lay_ties();
   } else {
@@ -63,23 +62,39 @@ void IslandPlanner::fly_with_ties() {
   by_end_ = by_end_ || !mean_is_allowed();
 }
 
-/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Where
-/// repeats do not find them, changes are mixed: a force on a long arm or on a light link turns it
-/// more than it moves it. Near positions in which a loop is singular that does not find them
-/// either: there nothing is predicted, and velocities are projected where flights end, which adds
-/// no energy.
-void IslandPlanner::follow_ties() {
-  if (!repeat_forces_of_ties()) {
-    forget_ties();
-    if (!mix_forces_of_ties()) {
-      forget_ties();
+/// Whether the flight of a tied body turns much farther than it would by itself, or is no number.
+bool IslandPlanner::turns_wildly() const {
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    const double most = kWildTurn + kWildGrowth * span_ * state_.states[k].w_WB.norm();
+    const bool is_tame =
+        flight_.rotation_vectors[k].norm() <= most && span_ * flight_.at_end[k].w.norm() <= most;
+    if (!is_tame && !state_.model.ties_of[state_.members[k]].empty()) {
+      return true;
     }
   }
+  return false;
+}
+
+/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Where
+/// repeats do not find them, changes are mixed: a force on a long arm or on a light link turns it
+/// more than it moves it. Where neither finds them nothing is predicted: velocities are projected
+/// where flights end, which loses energy. Returns whether they were found.
+bool IslandPlanner::follow_ties() {
+  if (repeat_forces_of_ties()) {
+    return true;
+  }
+  forget_ties();
+  if (mix_forces_of_ties()) {
+    return true;
+  }
+  forget_ties();
+  return false;
 }
 
 /// Returns whether the forces were found.
 bool IslandPlanner::repeat_forces_of_ties() {
   double before = std::numeric_limits<double>::infinity();
+  const double most = kWildGrowth * changes_of_ties().norm();
   for (int round = 0; round < kMostRoundsOfTies; ++round) {
     const double change = ties_.greatest_change(last_->velocities.ties);
     const bool is_near = change <= kNearChangeOfTies;
@@ -88,39 +103,30 @@ bool IslandPlanner::repeat_forces_of_ties() {
       return true;
     }
     const bool is_last = round + 1 == kMostRoundsOfTies;
-    if ((!is_near && (is_last || !(change <= kGrowthOfTies * before))) || turns_wildly()) {
+    if (!is_near && (is_last || !(change <= kGrowthOfTies * before))) {
       return false;
     }
     before = change;
-    predict_ties(ties_.predicted() + changes_of_ties());
+    if (!predict_ties(ties_.predicted() + changes_of_ties(), most)) {
+      return false;
+    }
   }
-  return !turns_wildly();
+  return true;
 }
 
 /// Likewise, by mixing. The first guess is no impulse at all, too far from the others to count.
 bool IslandPlanner::mix_forces_of_ties() {
   AndersonMixing mixing;
-  const double most = kGrowthOfMixed * changes_of_ties().norm();
-  predict_ties(changes_of_ties());
-  for (int round = 0; round < kMostMixedRoundsOfTies; ++round) {
+  const double most = kWildGrowth * changes_of_ties().norm();
+  bool goes_on = predict_ties(changes_of_ties(), most);
+  for (int round = 0; goes_on && round < kMostMixedRoundsOfTies; ++round) {
     if (ties_.greatest_change(last_->velocities.ties) <= kMixedChangeOfTies &&
         laid_by_end_ == by_end_) {
       return true;
     }
-    const VectorXd guess = mixing.next(ties_.predicted(), changes_of_ties());
-    if (!(guess.norm() <= most) || turns_wildly()) {  // Flights would turn without end.
-      return false;
-    }
-    predict_ties(guess);
+    goes_on = predict_ties(mixing.next(ties_.predicted(), changes_of_ties()), most);
   }
-  return !turns_wildly() && ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
-}
-
-/// Whether a flight turns much farther than plans of tied bodies do.
-bool IslandPlanner::turns_wildly() const {
-  return std::ranges::any_of(flight_.rotation_vectors, [](const Eigen::Vector3d& turn) {
-    return !(turn.norm() <= kWildTurn);
-  });
+  return goes_on && ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
 }
 
 /// Those that the last solution found.
@@ -129,12 +135,21 @@ VectorXd IslandPlanner::changes_of_ties() const {
   return VectorXd::Map(changes.data(), static_cast<Eigen::Index>(changes.size()));
 }
 
-/// Lets ties act in flights by these impulses, and solves.
-void IslandPlanner::predict_ties(const VectorXd& impulses) {
+/// Lets ties act in flights by these impulses, and solves. Returns false if they are longer than
+/// `most`, or turn a body wildly.
+bool IslandPlanner::predict_ties(const VectorXd& impulses, double most) {
+  if (!(impulses.norm() <= most)) {
+    return false;
+  }
   ties_.predict(impulses);
   take_spins();
   take_loads();
-  fly_with_ties();
+  fly_bodies();
+  if (turns_wildly()) {  // No flight could be made of that.
+    return false;
+  }
+  solve_where_flown();
+  return true;
 }
 
 /// Predicts no forces of ties, and solves.
@@ -145,7 +160,8 @@ void IslandPlanner::forget_ties() {
   for (ContactPoint& contact : problem_.contacts) {
     contact.guess.setZero();
   }
-  fly_with_ties();
+  fly_bodies();
+  solve_where_flown();
 }
 
 /// Adds displacements without velocity that bring joints of ties together, and cables back to their

@@ -110,14 +110,16 @@ double inverse_mass_between(const TieRow& one, const TieRow& other, const Contac
 
 std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies) {
   ContactProblem problem{.bodies = bodies.bodies()};
-  state.robots.add_mechanisms(problem);
   for (const std::size_t t : state.ties) {
     if (state.model.ties[t].is_joint()) {
       add_joint_now(state, state.model.ties[t], bodies, problem.ties);
     }
   }
-  return may_be_redundant(state) ? find_redundant(problem)
-                                 : std::vector<bool>(problem.ties.size(), false);
+  if (!may_be_redundant(state)) {
+    return std::vector<bool>(problem.ties.size(), false);
+  }
+  state.robots.add_mechanisms(problem);
+  return find_redundant(problem);
 }
 
 bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place) {

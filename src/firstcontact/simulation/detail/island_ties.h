@@ -47,7 +47,7 @@ struct TiedSide {
 /// Adds the bodies around the island that are tied to it.
 void add_tied_bodies(IslandState& state, ProblemBodies& bodies);
 
-/// Of each row of each joint where bodies are now: whether the rows before it imply it.
+/// Tells which rows of joints follow from the rows before them, where bodies are now.
 [[nodiscard]] std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies);
 
 /// The rows of joints and of taut cables where bodies are now: velocities or displacements along

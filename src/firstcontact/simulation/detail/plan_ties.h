@@ -51,8 +51,8 @@ class PlanTies {
   /// link body.
   void add_to(std::size_t member, Eigen::Vector3d& force, Eigen::Vector3d& torque) const;
 
-  /// [m]  How much farther predicted forces of joints take a member than the mean of its velocities
-  /// at both ends does, as they turn with the body that they turn most.
+  /// [m]  How much farther a member gets than by the mean of its velocities at both ends: predicted
+  /// forces of joints turn within the plan.
   [[nodiscard]] Eigen::Vector3d shift(std::size_t member) const;
 
   /// The predicted forces along the coordinates of robots, and those on their links; empty: none.

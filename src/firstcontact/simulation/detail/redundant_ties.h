@@ -18,8 +18,8 @@ struct IslandState;
 /// The rows that the rows before them imply, as the second hinge of a door, and those that nothing
 /// can move along.
 ///
-/// A Cholesky factorisation of J M^-1 J^T, row by row, in which what is left of a row's own
-/// response is rounding, or the square of how exactly joints are held together.
+/// A Cholesky factorisation of J M^-1 J^T finds them, row by row. Less than 1e-12 of such a row's
+/// greatest possible response is left: rounding, or the square of how exactly joints hold.
 ///
 /// @param problem  with the rows as its ties: joints where bodies are now
 [[nodiscard]] std::vector<bool> find_redundant(const ContactProblem& problem);

@@ -258,6 +258,8 @@ inline constexpr double kFarthestOfGap = 20.0;
 inline constexpr std::size_t kMostTautEvents = 20;
 /// [rad]  Bodies with ties turn no farther in a plan.
 inline constexpr double kMostTurnOfTied = 0.25;
+/// [-]  Where forces of ties are not found, plans become shorter, down to this part of the step.
+inline constexpr double kLeastShareOfTied = 1.0 / 16.0;
 /// [-]  Islands with ties sleep at this part of the speed of others: a soft spring is slow where it
 /// turns back.
 inline constexpr double kRestOfTied = 0.1;
