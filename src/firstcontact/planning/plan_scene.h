@@ -48,8 +48,8 @@ struct ScenePlan {
 ///
 /// @param options  with which the path was planned
 /// @param result   with a path
-/// @throws std::invalid_argument  without a path, or if its edges are screws. Also for a seed of 2^53
-///         or more, which a path file cannot hold.
+/// @throws std::invalid_argument  without a path, or if its edges are screws. Also for a seed of
+///         2^53 or more, which a path file cannot hold.
 [[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
                                                         const PlanOptions& options,
                                                         const PlanResult& result);
