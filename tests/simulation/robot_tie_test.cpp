@@ -172,6 +172,27 @@ TEST_F(RobotTie, SpringAtASliderKeepsItsEnergy) {
 }
 
 // The spring of a pendulum's bob turns with it.
+// As one at a free body of 2 kg does: 25 J became 102 J in a step.
+TEST_F(RobotTie, StrongDamperAtASliderTakesEnergyAlone) {
+  const std::string slider = "<link name=\"base\"/>" + link_text("cart", 2.0, "0 0 0", 0.01) +
+                             joint_text("x", "prismatic", "base", "cart", "1 0 0", "0 0 0");
+  for (const std::string c : {"1e1", "1e3", "1e4", "1e6"}) {
+    Simulator s = made(slider, R"("dynamics": {"base": "fixed", "velocities": {"x": 5}})",
+                       tie_settings(0.01,
+                                    R"({"type": "spring", "bodies": ["r/cart", null], "length": 1,
+                                        "points": [[0, 0, 0], [1, 0, 0]], "stiffness": 5e5,
+                                        "damping": )" +
+                                        c + "}",
+                                    false));
+    double before = 25.0;
+    for (int i = 0; i < 20; ++i) {
+      const double energy = energy_of(s.step().value());
+      ASSERT_LE(energy, before * (1.0 + 1e-12) + 1e-12) << c << " " << i;
+      before = energy;
+    }
+  }
+}
+
 TEST_F(RobotTie, SpringAtAnArmIsOfSecondOrder) {
   const std::string urdf = "<link name=\"base\"/>" + link_text("arm", 1.0, "0 0 -0.5", 0.01) +
                            joint_text("hinge", "continuous", "base", "arm", "0 1 0", "0 0 0");

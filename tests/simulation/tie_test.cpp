@@ -113,6 +113,37 @@ TEST(Tie, StiffSpringIsStable) {
   }
 }
 
+// However strong: it takes energy alone, and creeps back. Bodies were led by the mean of their
+// velocities, so 25 J became 102 J in the first step.
+TEST(Tie, StrongDampersTakeEnergyAlone) {
+  for (const double c : {1e1, 1e3, 1e4, 1e6, 1e9}) {
+    const std::string law = R"("stiffness": 5e5, "damping": )" + number_text(c) + "}";
+    Simulator s = simulator(mass_at("a", {0.5, 0, 0}, {5, 0, 0}, 2.0),
+                            tie_settings(0.01, kSpring + law, false));
+    double before = 25.0;
+    for (int i = 0; i < 100; ++i) {
+      const double energy = energy_of(s.step().value());
+      ASSERT_LE(energy, before * (1.0 + 1e-12) + 1e-12) << c << " " << i;
+      before = energy;
+    }
+    const double rate = 5e5 / c;  // [1/s]  Without mass: it decays by e^(-rate t).
+    if (rate <= 5.0) {
+      const double right = 10.0 / c * std::exp(-rate);
+      EXPECT_NEAR(s.states()[0].X_WB.position.x() - 0.5, right, 0.05 * right) << c;
+    }
+  }
+}
+
+// A weight that hangs in one stays at rest in the steps in which it sags.
+TEST(Tie, StrongDampersLetAWeightSagToRest) {
+  Simulator s = simulator(mass_at("a", {0, 0, -0.5}, Vector3d::Zero()),
+                          tie_settings(0.01, kSpring + R"("stiffness": 100, "damping": 1000})"));
+  run(s, 100);
+  const double rate = 0.1;  // [1/s]
+  EXPECT_NEAR(s.states()[0].X_WB.position.z() + 0.5, -kGravity / 100.0 * (1.0 - std::exp(-rate)),
+              1e-4);
+}
+
 /// Two masses of 1 kg and 3 kg on a spring, which turn about each other.
 Simulator orbiting(double h) {
   return simulator(mass_at("a", {0.4, 0, 0}, {0, 1.2, 0.1}) + "," +

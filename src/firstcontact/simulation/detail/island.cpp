@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <firstcontact/record/detail/earlier_impulses.h>
+#include <firstcontact/simulation/detail/angular_momentum.h>
 #include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
@@ -294,26 +295,7 @@ class Island {
     const bool is_last = planned_ >= state_.start.h - state_.reached;
     const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned_;
     t = to > state_.reached ? t : 0.0;
-    state_.robots.move_to(plan.robots, t, planned_, to);
-    for (std::size_t k = 0; k < state_.size(); ++k) {
-      const RigidState begin = state_.states[k];
-      RigidState& end = state_.states[k];
-      end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
-      end.X_WB.rotation.normalize();
-      end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
-      end.w_WB =
-          turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
-                       t * plan.moves[k].rotation_vector);
-      if (state_.member(k).link_body) {
-        const ContactBody body = state_.robots.body(k);
-        end.v_WC = body.v;
-        end.w_WB = body.w;
-      }
-      if (t > 0.0) {
-        const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
-        track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
-      }
-    }
+    move_bodies(plan, touches, t, to);
     if (t == 1.0 && planned_ == state_.start.h && track_.events == 0 &&
         falls_asleep(state_, plan, touches)) {
       come_to_rest();
@@ -339,6 +321,43 @@ class Island {
       touch.impulse *= t;
     }
     take(std::move(touches), before);
+  }
+
+  /// @param to  [s]  since the step began
+  void move_bodies(const Plan& plan, const std::vector<ManifoldPoint>& touches, double t,
+                   double to) {
+    const std::vector<RigidState> begin = state_.states;
+    const auto momentum = angular_momentum_ahead(state_, touches, planned_, t);
+    state_.robots.move_to(plan.robots, t, planned_, to);
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      state_.states[k] = state_ahead(plan, k, t);
+    }
+    if (momentum) {
+      take_angular_momentum(*momentum, state_);
+    }
+    for (std::size_t k = 0; k < state_.size() && t > 0.0; ++k) {
+      const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
+      track_.pieces[k].push_back({to, begin[k].X_WB, move, begin[k], state_.states[k]});
+    }
+  }
+
+  /// Of a member, after a share t of a plan for which its robot has moved.
+  [[nodiscard]] RigidState state_ahead(const Plan& plan, std::size_t k, double t) const {
+    const RigidState& begin = state_.states[k];
+    RigidState end;
+    end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
+    end.X_WB.rotation.normalize();
+    if (state_.member(k).link_body) {
+      const ContactBody body = state_.robots.body(k);
+      end.v_WC = body.v;
+      end.w_WB = body.w;
+      return end;
+    }
+    end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
+    end.w_WB =
+        turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
+                     t * plan.moves[k].rotation_vector);
+    return end;
   }
 
   /// Makes the touches of a plan those of the step, with what acted before. What acted on pairs

@@ -23,16 +23,8 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
       flight.torques.emplace_back(Vector3d::Zero());
       continue;  // Flies with its robot.
     }
-    Vector3d force = body.inertia.mass * state_.model.gravity;
-    Vector3d torque = Vector3d::Zero();
-    const double from = state_.start.time + state_.reached;
-    for (const TimedForce& timed : body.forces) {
-      // The mean over the span.
-      const double share =
-          std::max(0.0, std::min(timed.to, from + span_) - std::max(timed.from, from)) / span_;
-      force += share * timed.force;
-      torque += share * timed.torque;
-    }
+    auto [force, torque] = mean_force(body, state_.start.time + state_.reached, span_);
+    force += body.inertia.mass * state_.model.gravity;
     if (!ties_.empty()) {
       ties_.add_to(k, force, torque);
     }
@@ -258,7 +250,10 @@ Plan IslandPlanner::plan() {
   const std::vector<bool> by_end = led_by_end();
   const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&
                          !is_heap(state_, problem_.contacts.size()) && any_turns();
-  set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
+  const std::vector<ContactBody> after = by_chords ? along_chords().bodies : solution.bodies;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    made.moves.push_back(move_of(k, by_end[k], after[k]));
+  }
   std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
   std::vector<OuterImpulse> changes = outer;
@@ -268,6 +263,7 @@ Plan IslandPlanner::plan() {
   made.ties = ties_.impulses(solution.ties);
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes,
                                    state_.start.time + state_.reached, span_);
+  shift_robots(made);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   keep_on_curves(made);
   push_apart(made);
@@ -411,23 +407,21 @@ std::vector<bool> IslandPlanner::led_by_end() const {
   return by_end;
 }
 
-/// Those of link bodies are determined by their robots.
+/// How a member moves that has a velocity where the plan ends. The move of a link body is one of
+/// its robot.
 ///
-/// @param by_end  whether the velocities at the end lead a body, or the mean of those at both ends
-/// @param after   at the end
-void IslandPlanner::set_moves(const std::vector<bool>& by_end,
-                              const std::vector<ContactBody>& after, Plan& plan) const {
-  const std::vector<ContactBody>& before = bodies_.bodies();
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    const Vector3d& w_free = flight_.at_end[k].w;
-    const Vector3d& w = after[k].w;
-    const Vector3d turn =
-        by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
-    const Vector3d& v = after[k].v;
-    plan.moves.push_back({by_end[k] ? Vector3d(span_ * v)
-                                    : Vector3d(0.5 * span_ * (before[k].v + v) + ties_.shift(k)),
-                          flight_.rotation_vectors[k] + span_ * turn});
+/// @param by_end  whether that velocity leads it, or the mean of those at both ends
+Move IslandPlanner::move_of(std::size_t k, bool by_end, const ContactBody& after) const {
+  const ContactBody& before = bodies_.bodies()[k];
+  const Vector3d& w_free = flight_.at_end[k].w;
+  if (by_end) {
+    const Vector3d turn = after.w - 0.5 * (before.w + w_free);
+    return {span_ * after.v, flight_.rotation_vectors[k] + span_ * turn};
   }
+  const Move shift = ties_.shift(k);
+  const Vector3d turn = 0.5 * (after.w - w_free);
+  return {0.5 * span_ * (before.v + after.v) + shift.translation,
+          flight_.rotation_vectors[k] + span_ * turn + shift.rotation_vector};
 }
 
 }  // namespace firstcontact::detail

@@ -148,6 +148,7 @@ class IslandPlanner {
   [[nodiscard]] Eigen::VectorXd changes_of_ties() const;
   [[nodiscard]] bool predict_ties(const Eigen::VectorXd& impulses, double most);
   void forget_ties();
+  void shift_robots(Plan& plan) const;
   void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
@@ -163,8 +164,7 @@ class IslandPlanner {
   [[nodiscard]] bool any_turns() const;
   [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
-  void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,
-                 Plan& plan) const;
+  [[nodiscard]] Move move_of(std::size_t k, bool by_end, const ContactBody& after) const;
   [[nodiscard]] bool is_on_curve(std::size_t k) const;
   [[nodiscard]] double distance_of(const ManifoldPoint& touch) const;
   void displace(const ContactSolution& displacement, Plan& plan) const;

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include <firstcontact/simulation/detail/anderson_mixing.h>
+#include <firstcontact/contact_solver/detail/anderson_mixing.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
@@ -28,11 +28,6 @@ constexpr double kWildTurn = 1.0;
 
 /// The rows of ties for where the bodies fly.
 void IslandPlanner::lay_ties() {
-  std::vector<Move> moves;
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    moves.push_back({0.5 * span_ * (bodies_.bodies()[k].v + flight_.at_end[k].v) + ties_.shift(k),
-                     flight_.rotation_vectors[k]});
-  }
   std::vector<ContactBody> at_end = problem_.bodies;
   std::vector<bool> spinning(state_.size(), false);
   for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -46,7 +41,13 @@ void IslandPlanner::lay_ties() {
       at_end[k].w = V.tail<3>();
     }
   }
-  ties_.lay(bodies_, {moves, flights_, led_by_end(), at_end, spinning}, problem_);
+  ties_.take_changes(bodies_, at_end);
+  const std::vector<bool> by_end = led_by_end();
+  std::vector<Move> moves;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    moves.push_back(move_of(k, by_end[k], flight_.at_end[k]));
+  }
+  ties_.lay(bodies_, {moves, flights_, by_end, at_end, spinning}, problem_);
   laid_by_end_ = by_end_;
 }
 
@@ -162,6 +163,19 @@ void IslandPlanner::forget_ties() {
   }
   fly_bodies();
   solve_where_flown();
+}
+
+/// Leads robots as far as springs have it. Where velocities at the end lead, or motors, these do.
+void IslandPlanner::shift_robots(Plan& plan) const {
+  std::vector<VectorXd> shifts = ties_.shifts_of_robots(problem_);
+  for (std::size_t r = 0; r < shifts.size(); ++r) {
+    if (robots_by_end_[r] || state_.robots.has_motors(r)) {
+      shifts[r].setZero();
+    }
+  }
+  if (!shifts.empty()) {
+    state_.robots.displace(shifts, plan.robots);
+  }
 }
 
 /// Adds displacements without velocity that bring joints of ties together, and cables back to their

@@ -1,14 +1,17 @@
 #include <firstcontact/simulation/detail/island_ties.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/contact_solver/detail/tie_rows.h>
+#include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/redundant_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -88,24 +91,26 @@ TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& s
   return row;
 }
 
-double inverse_mass_between(const TieRow& one, const TieRow& other, const ContactProblem& problem) {
-  double sum = 0.0;
-  for (const TieSide& on : one.sides) {
-    const ContactBody& pushed = problem.bodies[on.body];
-    for (const TieSide& by : other.sides) {
-      const ContactBody& body = problem.bodies[by.body];
-      if (pushed.link && body.link && pushed.link->mechanism == body.link->mechanism) {
-        const ContactMechanism& mechanism = problem.mechanisms[body.link->mechanism];
-        sum += (pushed.link->J.transpose() * on.row)
-                   .dot(mechanism.inverse_mass * (body.link->J.transpose() * by.row));
-      } else if (on.body == by.body && !body.link) {
-        const InverseInertia& inverse = body.inverse_inertia;
-        sum += on.row.head<3>().dot(inverse.mass.cwiseProduct(by.row.head<3>())) +
-               on.row.tail<3>().dot(inverse.rotation * by.row.tail<3>());
-      }
+bool may_be_redundant(const IslandState& state) {
+  DisjointSets sets(state.size() + 1);
+  for (const std::size_t t : state.ties) {
+    const SimTie& tie = state.model.ties[t];
+    std::array<std::uint32_t, 2> ends{};
+    for (std::size_t s = 0; s < 2; ++s) {
+      const std::optional<std::size_t>& body = tie.ends[s].body;
+      const bool is_free =
+          body && moves_freely(state.model.bodies[*body]) && state.place.contains(*body);
+      ends[s] =
+          sets.root(static_cast<std::uint32_t>(is_free ? state.place.at(*body) : state.size()));
+    }
+    if (tie.is_joint() && ends[0] == ends[1]) {
+      return true;
+    }
+    if (tie.is_joint()) {
+      sets.join(ends[0], ends[1]);
     }
   }
-  return sum;
+  return false;
 }
 
 std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies) {

@@ -35,10 +35,6 @@ struct TiedSide {
 /// The row of a direction.
 [[nodiscard]] TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& sides);
 
-/// [1/kg]  What an impulse along one row does to the velocity along another one.
-[[nodiscard]] double inverse_mass_between(const TieRow& one, const TieRow& other,
-                                          const ContactProblem& problem);
-
 /// Whether a cable is as long as it gets, or nearly so.
 [[nodiscard]] bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place);
 
@@ -46,6 +42,10 @@ struct TiedSide {
 
 /// Adds the bodies around the island that are tied to it.
 void add_tied_bodies(IslandState& state, ProblemBodies& bodies);
+
+/// Whether joints of an island may say anything twice: those of a loop, of a robot or of a body
+/// with locked axes. Others are a tree of bodies that move freely.
+[[nodiscard]] bool may_be_redundant(const IslandState& state);
 
 /// Tells which rows of joints follow from the rows before them, where bodies are now.
 [[nodiscard]] std::vector<bool> redundant_rows(IslandState& state, const ProblemBodies& bodies);

@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/contact_solver/detail/tie_rows.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/redundant_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -39,6 +39,19 @@ double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
     u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
   }
   return u;
+}
+
+/// [m]  How far displacements of robots lead along a row.
+double way_along(const TieRow& row, const ContactProblem& problem,
+                 const std::vector<VectorXd>& of_robots) {
+  double way = 0.0;
+  for (const TieSide& side : row.sides) {
+    const auto& link = problem.bodies[side.body].link;
+    if (link && !of_robots.empty()) {
+      way += side.row.dot(link->J * of_robots[link->mechanism]);
+    }
+  }
+  return way;
 }
 
 }  // namespace
@@ -109,14 +122,11 @@ std::optional<std::size_t> PlanTies::lever_of(const Acting& acting) const {
 }
 
 void PlanTies::find_link_forces() {
-  const double from = state_.start.time + state_.reached;
   for (std::size_t k = 0; k < state_.size() && !state_.robots.empty(); ++k) {
-    for (const TimedForce& timed : state_.member(k).forces) {
-      if (state_.member(k).link_body) {
-        const double share =
-            std::max(0.0, std::min(timed.to, from + span_) - std::max(timed.from, from)) / span_;
-        link_forces_.push_back({k, share * timed.force, share * timed.torque});
-      }
+    const SimBody& body = state_.member(k);
+    if (body.link_body && !body.forces.empty()) {
+      const MeanForce mean = mean_force(body, state_.start.time + state_.reached, span_);
+      link_forces_.push_back({k, mean.force, mean.torque});
     }
   }
 }
@@ -226,6 +236,7 @@ bool PlanTies::is_led_by_end(const Acting& acting, const ProblemBodies& now,
 }
 
 void PlanTies::lay(const ProblemBodies& now, const IslandFlight& flight, ContactProblem& problem) {
+  shifts_of_robots_ = shifts_of_robots(problem);
   problem.ties.clear();
   for (Acting& acting : acting_) {
     follow(acting, flight);
@@ -234,12 +245,14 @@ void PlanTies::lay(const ProblemBodies& now, const IslandFlight& flight, Contact
     acting.first_row = problem.ties.size();
     add_rows(acting, now, flight, problem);
   }
+  take_changes(now, flight.at_end);
 }
 
 void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFlight& flight,
                         ContactProblem& problem) const {
   const SimTie& tie = *acting.tie;
   const std::array<TiedSide, 2> sides = sides_of(acting, now, flight);
+  acting.springs.clear();
   for (std::size_t k = 0; k < acting.changing.size(); ++k) {
     problem.ties.push_back(row_along(acting.changing[k], sides));
     if (acting.is_out(k)) {
@@ -255,7 +268,7 @@ void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFl
 }
 
 /// Gives the last row the numbers of a spring.
-void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodies& now,
+void PlanTies::add_spring(Acting& acting, std::size_t k, const ProblemBodies& now,
                           const std::array<TiedSide, 2>& sides,
                           const std::vector<ContactBody>& flown, ContactProblem& problem) const {
   const SimTie& tie = *acting.tie;
@@ -270,10 +283,11 @@ void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodi
   };
   SpringWay way;
   way.begin = extension(acting.now);
-  way.flight = extension(acting.end);
-  way.speed_at_begin = speed_along(row_along(acting.changing[k], as_they_are), now.bodies());
+  way.flight = extension(acting.end) + way_along(row, problem, shifts_of_robots_);
+  const TieRow at_begin = row_along(acting.changing[k], as_they_are);
+  way.speed_at_begin = speed_along(at_begin, now.bodies());
   way.speed_of_flight = speed_along(row, flown);
-  way.share = acting.by_end ? 1.0 : 0.5;
+  way.is_led_by_end = acting.by_end;
   way.inverse_mass = inverse_mass_between(row, row, problem);
   const bool is_cable = tie.type == TieType::cable;
   if (is_cable && way.begin < 0.0) {
@@ -286,10 +300,21 @@ void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodi
     way.speed_at_begin = 0.0;
   }
   const SpringRow law = spring_row(tie, way, span_);
+  acting.springs.push_back({at_begin, row, law.weight, way.inverse_mass});
   row.compliance = law.compliance;
   row.target = law.target - law.compliance * acting.predicted[k];
   if (is_cable) {
     row.greatest = -acting.predicted[k];
+  }
+}
+
+void PlanTies::take_changes(const ProblemBodies& now, const std::vector<ContactBody>& at_end) {
+  for (Acting& acting : acting_) {
+    for (SpringInPlan& spring : acting.springs) {
+      const double change =
+          speed_along(spring.at_end, at_end) - speed_along(spring.at_begin, now.bodies());
+      spring.lead = (spring.weight - 0.5) * span_ * change / spring.inverse_mass;
+    }
   }
 }
 

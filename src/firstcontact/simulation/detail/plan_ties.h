@@ -51,9 +51,17 @@ class PlanTies {
   /// link body.
   void add_to(std::size_t member, Eigen::Vector3d& force, Eigen::Vector3d& torque) const;
 
-  /// [m]  How much farther a member gets than by the mean of its velocities at both ends: predicted
-  /// forces of joints turn within the plan.
-  [[nodiscard]] Eigen::Vector3d shift(std::size_t member) const;
+  /// How much farther a member gets than by the mean of its velocities at both ends: predicted
+  /// forces of joints turn within the plan, and dampers change velocities before its middle.
+  [[nodiscard]] Move shift(std::size_t member) const;
+
+  /// Likewise the displacements of the coordinates of robots; empty: there are none.
+  [[nodiscard]] std::vector<Eigen::VectorXd> shifts_of_robots(const ContactProblem& problem) const;
+
+  /// Takes note of how much velocities change in the flights, for these shifts.
+  ///
+  /// @param at_end  as that of IslandFlight
+  void take_changes(const ProblemBodies& now, const std::vector<ContactBody>& at_end);
 
   /// The predicted forces along the coordinates of robots, and those on their links; empty: none.
   [[nodiscard]] std::vector<Eigen::VectorXd> loads(const std::vector<RobotFlight>& flights) const;
@@ -93,6 +101,15 @@ class PlanTies {
                       const ProblemBodies& now, ContactProblem& problem) const;
 
  private:
+  /// A direction of a spring, as the last rows have it.
+  struct SpringInPlan {
+    TieRow at_begin = {};       // As bodies move when the plan begins,
+    TieRow at_end = {};         // and where it ends.
+    double weight = 0.5;        // [-]  Of the end.
+    double inverse_mass = 0.0;  // [1/kg]
+    /// [kg m]  Along the direction, it leads bodies as far as velocities change.
+    double lead = 0.0;
+  };
   /// A tie in the plan.
   struct Acting {
     const SimTie* tie = nullptr;
@@ -109,9 +126,14 @@ class PlanTies {
     std::array<Eigen::Vector3d, 2> where = {};       // [m]  and where.
     std::vector<double> predicted = {};              // [N s or N m s]
     std::vector<bool> is_redundant = {};             // Of each direction of a joint.
+    std::vector<SpringInPlan> springs = {};          // Of each direction of a spring.
     bool by_end = false;
     std::size_t first_row = 0;
 
+    /// [m]  From the centre of mass of an end's body to where predicted impulses act.
+    [[nodiscard]] Eigen::Vector3d arm_halfway(std::size_t side) const {
+      return at[side] - 0.5 * (centres_now[side] + centres_end[side]);
+    }
     /// Whether rows before that of a direction imply it.
     [[nodiscard]] bool is_out(std::size_t direction) const;
   };
@@ -135,7 +157,7 @@ class PlanTies {
                                    const std::vector<bool>& by_end) const;
   void add_rows(Acting& acting, const ProblemBodies& now, const IslandFlight& flight,
                 ContactProblem& problem) const;
-  void add_spring(const Acting& acting, std::size_t k, const ProblemBodies& now,
+  void add_spring(Acting& acting, std::size_t k, const ProblemBodies& now,
                   const std::array<TiedSide, 2>& sides, const std::vector<ContactBody>& flown,
                   ContactProblem& problem) const;
   [[nodiscard]] LinkLoad load_of(const LinkForce& force, const RobotFlight& flight) const;
@@ -148,7 +170,8 @@ class PlanTies {
   double span_;
   std::vector<Acting> acting_ = {};
   std::vector<LinkForce> link_forces_ = {};
-  std::vector<bool> pulled_ = {};  // Of each member: a tie acts on it.
+  std::vector<bool> pulled_ = {};                       // Of each member: a tie acts on it.
+  std::vector<Eigen::VectorXd> shifts_of_robots_ = {};  // In the flights of the last rows.
 };
 
 }  // namespace firstcontact::detail

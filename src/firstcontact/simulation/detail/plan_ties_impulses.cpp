@@ -46,9 +46,8 @@ void PlanTies::add_to(std::size_t member, Vector3d& force, Vector3d& torque) con
       }
       const TieImpulse impulse = sum_of(acting.halfway, acting.predicted);
       const double sign = (s == 0 ? -1.0 : 1.0) / span_;
-      const Vector3d arm = acting.at[s] - 0.5 * (acting.centres_now[s] + acting.centres_end[s]);
       force += sign * impulse.linear;
-      torque += sign * (arm.cross(impulse.linear) + impulse.angular);
+      torque += sign * (acting.arm_halfway(s).cross(impulse.linear) + impulse.angular);
     }
   }
 }
@@ -93,23 +92,55 @@ std::vector<VectorXd> PlanTies::loads(const std::vector<RobotFlight>& flights) c
   return forces;
 }
 
-/// Over a span h the trapezoidal rule errs by h^2 / 12 times the change of the acceleration. That
-/// of an acceleration a that turns by a small phi is phi x a.
-Vector3d PlanTies::shift(std::size_t member) const {
-  Vector3d impulse = Vector3d::Zero();
+/// Forces of joints turn: over a span h the trapezoidal rule errs by h^2 / 12 times the change of
+/// the acceleration. That of an acceleration a that turns by a small phi is phi x a. Along a spring
+/// bodies are led by the weighted mean of velocities that its row has.
+Move PlanTies::shift(std::size_t member) const {
+  TieImpulse way;  // Of mass times way, and of moment of inertia times turn.
   for (const Acting& acting : acting_) {
-    // A weld keeps the angular momentum of what tumbles: forces and torques turn apart there.
-    const bool turns = acting.lever && !acting.halfway.empty() && acting.tie->type != TieType::weld;
-    for (std::size_t s = 0; s < 2 && turns; ++s) {
-      if (acting.tie->ends[s].body == state_.members[member]) {
-        const Vector3d on = sum_of(acting.halfway, acting.predicted).linear;
-        impulse += (s == 0 ? -1.0 : 1.0) * acting.turn.cross(on);
+    for (std::size_t s = 0; s < 2 && !acting.halfway.empty(); ++s) {
+      if (acting.tie->ends[s].body != state_.members[member]) {
+        continue;
+      }
+      const double sign = s == 0 ? -1.0 : 1.0;
+      // A weld keeps the angular momentum of what tumbles: forces and torques turn apart there.
+      if (acting.lever && acting.tie->type != TieType::weld) {
+        const Vector3d linear = sum_of(acting.halfway, acting.predicted).linear;
+        way.linear -= span_ / 12.0 * sign * acting.turn.cross(linear);
+      }
+      for (std::size_t k = 0; k < acting.springs.size(); ++k) {
+        const Vector3d led = sign * acting.springs[k].lead * acting.halfway[k].linear;
+        way.linear += led;
+        way.angular += acting.arm_halfway(s).cross(led);
       }
     }
   }
+  if (state_.member(member).link_body) {
+    return {};
+  }
   const InverseInertia inverse =
       inverse_inertia(state_.member(member).inertia, state_.states[member].X_WB);
-  return -span_ / 12.0 * inverse.mass.cwiseProduct(impulse);
+  return {inverse.mass.cwiseProduct(way.linear), inverse.rotation * way.angular};
+}
+
+std::vector<VectorXd> PlanTies::shifts_of_robots(const ContactProblem& problem) const {
+  std::vector<VectorXd> shifts;
+  for (const Acting& acting : acting_) {
+    for (const SpringInPlan& spring : acting.springs) {
+      for (const TieSide& side : spring.at_end.sides) {
+        const auto& link = problem.bodies[side.body].link;
+        if (!link || spring.lead == 0.0) {
+          continue;
+        }
+        for (std::size_t r = shifts.size(); r < problem.mechanisms.size(); ++r) {
+          shifts.emplace_back(VectorXd::Zero(problem.mechanisms[r].velocity.size()));
+        }
+        shifts[link->mechanism] += problem.mechanisms[link->mechanism].inverse_mass *
+                                   (link->J.transpose() * (spring.lead * side.row));
+      }
+    }
+  }
+  return shifts;
 }
 
 std::vector<double> PlanTies::part_of(const Acting& acting,
@@ -151,6 +182,7 @@ void PlanTies::forget() {
   for (Acting& acting : acting_) {
     std::ranges::fill(acting.predicted, 0.0);
     acting.halfway.clear();  // Flights may have led anywhere.
+    acting.springs.clear();
   }
 }
 

@@ -132,6 +132,24 @@ std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& li
   return bodies;
 }
 
+bool moves_freely(const SimBody& body) {
+  const auto is_set = [](bool lock) { return lock; };
+  return body.kind == BodyKind::free && !body.link_body &&
+         std::ranges::none_of(body.inertia.locked_translation, is_set) &&
+         std::ranges::none_of(body.inertia.locked_rotation, is_set);
+}
+
+MeanForce mean_force(const SimBody& body, double from, double span) {
+  MeanForce mean;
+  for (const TimedForce& timed : body.forces) {
+    const double acts = std::min(timed.to, from + span) - std::max(timed.from, from);
+    const double share = std::max(0.0, acts) / span;
+    mean.force += share * timed.force;
+    mean.torque += share * timed.torque;
+  }
+  return mean;
+}
+
 double contact_distance_of(const Simulation& simulation, const std::vector<SimBody>& bodies) {
   if (simulation.contact_distance) {
     return *simulation.contact_distance;

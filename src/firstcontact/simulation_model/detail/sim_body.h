@@ -52,6 +52,19 @@ struct SimBody {
   std::vector<TimedForce> forces = {};
 };
 
+/// Whether forces move a body in every direction, by itself.
+[[nodiscard]] bool moves_freely(const SimBody& body);
+
+/// The mean of the given forces on a body over a time.
+struct MeanForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]
+};
+
+/// @param from  [s]  of the simulation
+/// @param span  [s]
+[[nodiscard]] MeanForce mean_force(const SimBody& body, double from, double span);
+
 /// The bodies of a scene that has a simulation, those of its links among them.
 ///
 /// @param scene  the one of which `linked` was made

@@ -216,14 +216,15 @@ SpringRow spring_row(const SimTie& tie, const SpringWay& way, double span) {
   const double phase = span * std::sqrt(k * way.inverse_mass);
   const double weight =
       fitted_weight(span * c * way.inverse_mass + std::max(0.0, phase - kGreatestPhase));
+  const double lead = span * (way.is_led_by_end ? 1.0 : weight);
   // r = -span (k extension + c speed), with
-  //   extension = begin + weight (flight + span share (u - speed_of_flight) - begin)
+  //   extension = begin + weight (flight + lead (u - speed_of_flight) - begin)
   //   speed = (1 - weight) speed_at_begin + weight u
-  const double answer = span * weight * (span * way.share * k + c);
+  const double answer = span * weight * (lead * k + c);
   const double rest =
-      k * (way.begin + weight * (way.flight - way.begin - span * way.share * way.speed_of_flight)) +
+      k * (way.begin + weight * (way.flight - way.begin - lead * way.speed_of_flight)) +
       c * (1.0 - weight) * way.speed_at_begin;
-  return {-span * rest / answer, 1.0 / answer};
+  return {-span * rest / answer, 1.0 / answer, weight};
 }
 
 std::string wrong_ties(const std::vector<SimTie>& ties,

@@ -81,14 +81,15 @@ struct SpringWay {
   double flight = 0.0;           ///< [m]  and where velocities lead that the row does not change.
   double speed_at_begin = 0.0;   ///< [m/s]
   double speed_of_flight = 0.0;  ///< [m/s]  Its velocity at the end of that flight.
-  double share = 0.5;  ///< [-]  A velocity u at the end adds span share (u - speed_of_flight).
-  double inverse_mass = 0.0;  ///< [1/kg]  What an impulse does to u.
+  double inverse_mass = 0.0;     ///< [1/kg]  What an impulse does to the velocity at the end.
+  bool is_led_by_end = false;    ///< That velocity leads it, whatever the weights are.
 };
 
 /// The numbers of a row whose impulses r meet u + compliance r = target.
 struct SpringRow {
   double target = 0.0;
   double compliance = 0.0;
+  double weight = 0.5;  ///< [-]  Of the end of the span. It leads bodies as far as r moves them.
 };
 
 /// The row of a spring over a span.
@@ -96,7 +97,9 @@ struct SpringRow {
 /// It pulls with the weighted means of its extensions and of its velocities at both ends. Without
 /// a damper the weights are equal: the trapezoidal rule, which keeps the energy. A damper has the
 /// weight of fitted_weight(). Springs that swing by more than one radian of their phase in a span
-/// are damped, as steps cannot follow them.
+/// are damped, as steps cannot follow them. What an impulse r changes of a velocity leads by the
+/// same weight w. So the energy never grows: beside what the damper takes the rule loses
+/// (w - 1/2) (r^2 inverse_mass + stiffness way^2).
 ///
 /// @param span  [s]
 [[nodiscard]] SpringRow spring_row(const SimTie& tie, const SpringWay& way, double span);

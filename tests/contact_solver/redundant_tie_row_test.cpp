@@ -10,8 +10,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include <firstcontact/simulation/detail/anderson_mixing.h>
-#include <firstcontact/simulation/detail/redundant_ties.h>
+#include <firstcontact/contact_solver/detail/anderson_mixing.h>
+#include <firstcontact/contact_solver/detail/tie_rows.h>
 
 namespace firstcontact::detail {
 namespace {

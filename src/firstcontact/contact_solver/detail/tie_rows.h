@@ -1,5 +1,5 @@
 /// @file
-/// Rows of joints that say again what others say.
+/// What rows of ties do to each other, and which say again what others say.
 
 #pragma once
 
@@ -9,11 +9,9 @@
 
 namespace firstcontact::detail {
 
-struct IslandState;
-
-/// Whether joints of an island may say anything twice: those of a loop, of a robot or of a body
-/// with locked axes. Others are a tree of bodies that move freely.
-[[nodiscard]] bool may_be_redundant(const IslandState& state);
+/// [1/kg]  What an impulse along one row does to the velocity along another one.
+[[nodiscard]] double inverse_mass_between(const TieRow& one, const TieRow& other,
+                                          const ContactProblem& problem);
 
 /// The rows that the rows before them imply, as the second hinge of a door, and those that nothing
 /// can move along.

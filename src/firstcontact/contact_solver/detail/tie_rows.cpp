@@ -1,16 +1,9 @@
-#include <firstcontact/simulation/detail/redundant_ties.h>
+#include <firstcontact/contact_solver/detail/tie_rows.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <optional>
+#include <cstddef>
 
 #include <Eigen/Core>
-
-#include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/island_ties.h>
-#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -20,39 +13,6 @@ using Eigen::MatrixXd;
 
 /// [-]  What is left of a row's response, as a part of the greatest that it could have.
 constexpr double kRedundant = 1e-12;
-
-/// Sets of bodies that ties connect.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-
-  /// Whether the two were in different sets.
-  bool join(std::size_t one, std::size_t other) {
-    one = root(one);
-    other = root(other);
-    parent_[one] = other;
-    return one != other;
-  }
-
- private:
-  [[nodiscard]] std::size_t root(std::size_t k) const {
-    while (parent_[k] != k) {
-      k = parent_[k];
-    }
-    return k;
-  }
-
-  std::vector<std::size_t> parent_;
-};
-
-bool moves_freely(const SimBody& body) {
-  const auto is_set = [](bool lock) { return lock; };
-  return body.kind == BodyKind::free && !body.link_body &&
-         std::ranges::none_of(body.inertia.locked_translation, is_set) &&
-         std::ranges::none_of(body.inertia.locked_rotation, is_set);
-}
 
 /// [1/kg]  The response of a row in the direction in which its bodies yield most: below a tiny part
 /// of it a response is rounding.
@@ -89,22 +49,24 @@ MatrixXd response_of(const ContactProblem& problem) {
 
 }  // namespace
 
-bool may_be_redundant(const IslandState& state) {
-  Sets sets(state.size() + 1);
-  for (const std::size_t t : state.ties) {
-    const SimTie& tie = state.model.ties[t];
-    std::array<std::size_t, 2> ends{state.size(), state.size()};
-    for (std::size_t s = 0; s < 2; ++s) {
-      const std::optional<std::size_t>& body = tie.ends[s].body;
-      if (body && moves_freely(state.model.bodies[*body]) && state.place.contains(*body)) {
-        ends[s] = state.place.at(*body);
+double inverse_mass_between(const TieRow& one, const TieRow& other, const ContactProblem& problem) {
+  double sum = 0.0;
+  for (const TieSide& on : one.sides) {
+    const ContactBody& pushed = problem.bodies[on.body];
+    for (const TieSide& by : other.sides) {
+      const ContactBody& body = problem.bodies[by.body];
+      if (pushed.link && body.link && pushed.link->mechanism == body.link->mechanism) {
+        const ContactMechanism& mechanism = problem.mechanisms[body.link->mechanism];
+        sum += (pushed.link->J.transpose() * on.row)
+                   .dot(mechanism.inverse_mass * (body.link->J.transpose() * by.row));
+      } else if (on.body == by.body && !body.link) {
+        const InverseInertia& inverse = body.inverse_inertia;
+        sum += on.row.head<3>().dot(inverse.mass.cwiseProduct(by.row.head<3>())) +
+               on.row.tail<3>().dot(inverse.rotation * by.row.tail<3>());
       }
     }
-    if (tie.is_joint() && !sets.join(ends[0], ends[1])) {
-      return true;
-    }
   }
-  return false;
+  return sum;
 }
 
 std::vector<bool> find_redundant(const ContactProblem& problem) {

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/anderson_mixing.h>
+#include <firstcontact/contact_solver/detail/anderson_mixing.h>
 
 #include <vector>
 
