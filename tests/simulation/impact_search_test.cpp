@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/island/detail/impact_search.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/simulation/detail/impact_search.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>

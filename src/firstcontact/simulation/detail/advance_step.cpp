@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/island/detail/island.h>
 #include <firstcontact/record/detail/joined_steps.h>
 #include <firstcontact/scene/simulation.h>
-#include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_threads.h>
 #include <firstcontact/simulation/detail/islands.h>
 #include <firstcontact/simulation/detail/record_step.h>

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include <firstcontact/geometry/detail/overlap_tree.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/sleeping.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/island_threads.h>
-#include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>

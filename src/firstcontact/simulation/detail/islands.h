@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include <firstcontact/simulation/detail/island.h>
+#include <firstcontact/island/detail/island.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact::detail {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/simulation/detail/island.h>
+#include <firstcontact/island/detail/island.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/island_robots.h>

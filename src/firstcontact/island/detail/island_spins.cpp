@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/motion/detail/turn.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 

@@ -1,13 +1,13 @@
-#include <firstcontact/simulation/detail/sleeping.h>
+#include <firstcontact/island/detail/sleeping.h>
 
 #include <algorithm>
 #include <utility>
 
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
 #include <firstcontact/scene/simulation.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/island_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>

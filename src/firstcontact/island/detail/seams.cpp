@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/seams.h>
+#include <firstcontact/island/detail/seams.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/placed_shape.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/round_contact.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/sequential_impacts.h>
+#include <firstcontact/island/detail/sequential_impacts.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/impact_search.h>
+#include <firstcontact/island/detail/impact_search.h>
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/island/detail/island_state.h>
 
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/plan_ties.h>
+#include <firstcontact/island/detail/plan_ties.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/contact_solver/detail/tie_rows.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/motion/detail/turn.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>

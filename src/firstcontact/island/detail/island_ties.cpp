@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/island_ties.h>
+#include <firstcontact/island/detail/island_ties.h>
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/contact_solver/detail/tie_rows.h>
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/math/disjoint_sets.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>

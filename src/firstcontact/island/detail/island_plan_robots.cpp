@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/angular_momentum.h>
+#include <firstcontact/island/detail/angular_momentum.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -7,9 +7,9 @@
 #include <Eigen/Cholesky>
 
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/mechanism/detail/spatial.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>

@@ -1,10 +1,10 @@
-#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/island/detail/island_plan.h>
 
 #include <algorithm>
 #include <map>
 
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/scene/simulation.h>
-#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>

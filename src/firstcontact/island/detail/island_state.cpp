@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/island/detail/island_state.h>
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include <firstcontact/simulation/detail/seams.h>
+#include <firstcontact/island/detail/seams.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/moving_contact.h>
 #include <firstcontact/simulation_model/detail/swept_hull.h>

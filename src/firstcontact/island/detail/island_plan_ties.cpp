@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/detail/anderson_mixing.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 

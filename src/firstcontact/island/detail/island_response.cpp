@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/island/detail/island_response.h>
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <Eigen/Cholesky>
 
 #include <firstcontact/contact_solver/detail/re_solve.h>
-#include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/sequential_impacts.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/sequential_impacts.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
 

@@ -9,12 +9,12 @@
 #include <unordered_map>
 #include <vector>
 
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/seams.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/seams.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/swept_hull.h>

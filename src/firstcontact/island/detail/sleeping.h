@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <firstcontact/simulation/detail/island.h>
+#include <firstcontact/island/detail/island.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact::detail {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/island/detail/island.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/plan_ties.h>
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/plan_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/manifold.h>

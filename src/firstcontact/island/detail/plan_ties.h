@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/island/detail/island.h>
+#include <firstcontact/island/detail/island_ties.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/island_ties.h>
 #include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/sim_tie.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/island.h>
+#include <firstcontact/island/detail/island.h>
 
 #include <algorithm>
 #include <array>
@@ -8,14 +8,14 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/island/detail/angular_momentum.h>
+#include <firstcontact/island/detail/impact_search.h>
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_response.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
+#include <firstcontact/island/detail/sleeping.h>
 #include <firstcontact/record/detail/earlier_impulses.h>
-#include <firstcontact/simulation/detail/angular_momentum.h>
-#include <firstcontact/simulation/detail/impact_search.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/island_ties.h>
-#include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {

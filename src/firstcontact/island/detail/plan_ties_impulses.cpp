@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/plan_ties.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/plan_ties.h>
 #include <firstcontact/simulation_model/detail/response.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
