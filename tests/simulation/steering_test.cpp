@@ -23,18 +23,18 @@ using test::run;
 using test::simulator;
 using test::verify;
 
-constexpr double kStep = 0.01;  // [s]
-const std::string kCube =
+constexpr double kSteeringStep = 0.01;  // [s]
+const std::string kSteeredCube =
     body("cube", box("[0.2, 0.2, 0.2]"), "[0, 0, 1]", R"(, "dynamics": {"mass": 2})");
 const std::string kFloating = R"("step": 0.01, "gravity": [0, 0, 0])";
 
 TEST(SteeredSimulation, ForcesActForOneStep) {
-  Simulator s = simulator(kCube, kFloating);
+  Simulator s = simulator(kSteeredCube, kFloating);
   s.apply_force(0, {4.0, 0.0, 0.0});
   s.apply_force(0, {0.0, 2.0, 0.0}, {0.0, 0.0, 0.1});
   run(s, 1);
   // I = m a^2 / 6
-  const double spin = 0.1 * kStep / (2.0 * 0.04 / 6.0);
+  const double spin = 0.1 * kSteeringStep / (2.0 * 0.04 / 6.0);
   EXPECT_LE((s.states()[0].v_WC - Vector3d(0.02, 0.01, 0.0)).norm(), 1e-15);
   EXPECT_LE((s.states()[0].w_WB - Vector3d(0.0, 0.0, spin)).norm(), 1e-12);
   run(s, 3);
@@ -42,11 +42,11 @@ TEST(SteeredSimulation, ForcesActForOneStep) {
 }
 
 TEST(SteeredSimulation, ForceAtAPointTurnsTheBody) {
-  Simulator s = simulator(kCube, kFloating);
+  Simulator s = simulator(kSteeredCube, kFloating);
   s.apply_force(0, {0.0, 0.0, 3.0}, Vector3d::Zero(), Vector3d(0.1, 0.0, 7.0));
   run(s, 1);
-  EXPECT_NEAR(s.states()[0].w_WB.y(), -0.3 * kStep / (2.0 * 0.04 / 6.0), 1e-12);
-  EXPECT_NEAR(s.states()[0].v_WC.z(), 1.5 * kStep, 1e-15);
+  EXPECT_NEAR(s.states()[0].w_WB.y(), -0.3 * kSteeringStep / (2.0 * 0.04 / 6.0), 1e-12);
+  EXPECT_NEAR(s.states()[0].v_WC.z(), 1.5 * kSteeringStep, 1e-15);
 }
 
 /// A cube that has come to rest on the floor.
@@ -67,7 +67,7 @@ TEST(SteeredSimulation, ForceWakesWhatRests) {
   EXPECT_LE(s.states()[1].v_WC.norm(), 1e-6);
   s.apply_force(1, {100.0, 0.0, 0.0});
   run(s, 1);
-  EXPECT_NEAR(s.states()[1].v_WC.x(), (50.0 - 0.5 * 9.81) * kStep, 1e-4);
+  EXPECT_NEAR(s.states()[1].v_WC.x(), (50.0 - 0.5 * 9.81) * kSteeringStep, 1e-4);
   EXPECT_TRUE(run(s, 60).back().bodies[0].rests);
 }
 

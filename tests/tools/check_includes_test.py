@@ -18,7 +18,7 @@ CHANGES = {
     "a new mesh format": "mesh_files",
     "a new joint type": "robot",
     "a new in-between motion": "motion",
-    "another restitution law": "simulation",
+    "another restitution law": "island",
     "a new key of a scene": "scene_files",
     "a new panel of the page": "viewer",
     "a tighter bound of two boxes": "narrowphase",

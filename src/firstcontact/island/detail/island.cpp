@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include <firstcontact/island/detail/island_response.h>
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/island_ties.h>
+#include <firstcontact/island/detail/met_scripts.h>
 #include <firstcontact/island/detail/sleeping.h>
 #include <firstcontact/record/detail/earlier_impulses.h>
 #include <firstcontact/simulation_model/detail/constants.h>
@@ -40,18 +40,20 @@ class Island {
     state_.find_manifolds(guesses_, workspace_);
     for (const auto& [pair, manifold] : state_.manifolds) {
       for (const ManifoldPoint& touch : manifold.touches) {
-        meet(touch, scripts_);
+        scripts_.meet(state_, touch);
       }
     }
+    scripts_.meet_ties(state_);
     if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
     }
     while (state_.reached < state_.start.h) {
-      const std::size_t events =
-          tries_again_ ? std::min(kMostEventsAgain, state_.model.events) : state_.model.events;
+      const std::size_t events = scripts_.try_again()
+                                     ? std::min(kMostEventsAgain, state_.model.events)
+                                     : state_.model.events;
       if (track_.events > events || stalls >= kMostStalls || is_jammed()) {
-        track_.crushing = crushing();
+        track_.crushing = scripts_.crushing();
         break;
       }
       const double reached = state_.reached;
@@ -60,7 +62,12 @@ class Island {
       if (!t) {
         return std::nullopt;
       }
-      if (*t < 1.0 && !(tries_again_ && is_jammed())) {
+      if (is_torn_) {
+        track_.crushed = state_.reached;
+        track_.crushing = scripts_.crushing();
+        break;
+      }
+      if (*t < 1.0 && !(scripts_.try_again() && is_jammed())) {
         ++track_.events;
         impact();
       }
@@ -156,51 +163,8 @@ class Island {
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
   /// doubles could not prove it. Or plans go on to break what contacts ask.
   [[nodiscard]] bool is_jammed() const {
-    const std::size_t most = tries_again_ ? kMostCrushedAgain : kMostCrushed;
+    const std::size_t most = scripts_.try_again() ? kMostCrushedAgain : kMostCrushed;
     return squeezed_ >= kMostSqueezed || crushed_ >= most;
-  }
-
-  /// Takes note of scripts that touch the island or get in the way of a plan, and of how far [m]
-  /// they close there in the step by themselves.
-  void meet(const ManifoldPoint& touch, std::map<std::size_t, double>& scripts) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const std::size_t body = touch.bodies[side];
-      const Move& move = state_.start.scripted[body];
-      if (!move.translation.any() && !move.rotation_vector.any()) {
-        continue;
-      }
-      tries_again_ = tries_again_ || state_.start.waited[body];
-      const Eigen::Vector3d arm =
-          touch.point - centre_of_mass(state_.model.bodies[body].inertia, state_.pose_of(body));
-      const Eigen::Vector3d way = move.translation + move.rotation_vector.cross(arm);
-      double& closing = scripts.try_emplace(body, 0.0).first->second;
-      closing = std::max(closing, (side == 0 ? 1.0 : -1.0) * touch.normal.dot(way));
-    }
-  }
-
-  /// The scripted bodies that close fastest where plans were stopped last, or else on all that the
-  /// island met. What moves along a contact, or away, crushes nothing.
-  [[nodiscard]] std::vector<std::size_t> crushing() const {
-    for (const std::map<std::size_t, double>& scripts : {hit_last_, scripts_}) {
-      double fastest = 0.0;  // [m]
-      for (const auto& [body, closing] : scripts) {
-        fastest = std::max(fastest, closing);
-      }
-      std::vector<std::size_t> found;
-      for (const auto& [body, closing] : scripts) {
-        if (closing > 0.5 * fastest) {
-          found.push_back(body);
-        }
-      }
-      if (!found.empty()) {
-        return found;
-      }
-    }
-    std::vector<std::size_t> all;
-    for (const auto& [body, closing] : scripts_) {
-      all.push_back(body);
-    }
-    return all;
   }
 
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
@@ -237,16 +201,19 @@ class Island {
     ImpactSearch search(state_, planned_, workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
-      if (!plan.finds_ties && planned_ > kLeastShareOfTied * state_.start.h) {
+      if ((plan.tears_ties || !plan.finds_ties) && planned_ > kLeastShareOfTied * state_.start.h) {
         planned_ *= 0.5;
         return advance();
       }
+      if (plan.tears_ties) {
+        is_torn_ = true;
+        return 0.0;
+      }
       const std::vector<Impact> hits = search.find(plan);
-      hit_last_.clear();
+      scripts_.begin_plan();
       for (const Impact& hit : hits) {
         for (const PredictedContact& ahead : hit.ahead) {
-          meet(ahead.touch, hit_last_);
-          meet(ahead.touch, scripts_);
+          scripts_.meet_in_plan(state_, ahead.touch);
         }
       }
       if (hits.empty() || round == kRoundsOfSlight ||
@@ -285,7 +252,7 @@ class Island {
     const auto is_known = [&](const Impact& hit) {
       return std::ranges::all_of(hit.ahead, [&](const auto& ahead) { return planner.has(ahead); });
     };
-    return (tries_again_ && !plan.is_solved) ||
+    return (scripts_.try_again() && !plan.is_solved) ||
            (!plan.keeps_contacts() && std::ranges::all_of(hits, is_known));
   }
 
@@ -458,10 +425,8 @@ class Island {
   double planned_ = 0.0;      // [s]  Of the plan.
   std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
   std::size_t crushed_ = 0;   // Impacts of plans that contacts left no solution.
-  bool tries_again_ = false;  // A script that was met, after it had to wait.
-  /// [m]  Bodies that were met and that scripts move: how far they close by themselves.
-  std::map<std::size_t, double> scripts_ = {};
-  std::map<std::size_t, double> hit_last_ = {};  // Those that stopped the last plan.
+  bool is_torn_ = false;      // No plan holds the ties.
+  MetScripts scripts_ = {};
 };
 
 }  // namespace

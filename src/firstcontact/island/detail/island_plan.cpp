@@ -4,6 +4,8 @@
 #include <map>
 
 #include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
+#include <firstcontact/island/detail/tied_energy.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
@@ -265,12 +267,21 @@ Plan IslandPlanner::plan() {
                                    state_.start.time + state_.reached, span_);
   shift_robots(made);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
+  if (leads_nowhere(made)) {
+    made.tears_ties = true;
+    return made;
+  }
   keep_on_curves(made);
   push_apart(made);
   settle_ties(made);
   carry_back(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
+  if (!state_.ties.empty()) {
+    made.tears_ties = leads_nowhere(made) || tears_ties(state_, made, span_);
+    made.finds_ties =
+        made.finds_ties && (made.tears_ties || keeps_tied_energy(state_, made, solution, span_));
+  }
   return made;
 }
 

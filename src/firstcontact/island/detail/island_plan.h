@@ -69,7 +69,10 @@ struct Plan {
   double residual = 0.0;                 ///< [m/s]
   bool is_limited = false;               ///< Velocities are shorter than contacts would have them.
   bool is_solved = true;                 ///< Contacts have a solution, and it was found.
-  bool finds_ties = true;  ///< Forces of ties were found; a shorter plan may find them.
+  /// Forces of ties were found, and keep the energy that they do not take; those of a shorter plan
+  /// may do.
+  bool finds_ties = true;
+  bool tears_ties = false;  ///< Joints are apart where it ends, or it leads nowhere.
 
   [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };
@@ -148,6 +151,7 @@ class IslandPlanner {
   [[nodiscard]] Eigen::VectorXd changes_of_ties() const;
   [[nodiscard]] bool predict_ties(const Eigen::VectorXd& impulses, double most);
   void forget_ties();
+  [[nodiscard]] bool leads_nowhere(const Plan& plan) const;
   void shift_robots(Plan& plan) const;
   void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);

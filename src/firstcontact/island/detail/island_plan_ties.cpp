@@ -165,6 +165,13 @@ void IslandPlanner::forget_ties() {
   solve_where_flown();
 }
 
+/// Whether forces of ties at a singular position throw bodies beyond all bounds.
+bool IslandPlanner::leads_nowhere(const Plan& plan) const {
+  return !ties_.empty() && !std::ranges::all_of(plan.moves, [](const Move& move) {
+    return move.translation.allFinite() && move.rotation_vector.norm() <= kWildTurnOfTied;
+  });
+}
+
 /// Leads robots as far as springs have it. Where velocities at the end lead, or motors, these do.
 void IslandPlanner::shift_robots(Plan& plan) const {
   std::vector<VectorXd> shifts = ties_.shifts_of_robots(problem_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -54,10 +55,10 @@ double velocity_of(const TieRow& row, const std::vector<ContactBody>& bodies) {
   return u;
 }
 
-/// [m]  A share of a plan ahead.
-double length_at(IslandState& state, const SimTie& tie, const Plan& plan, double span,
-                 double share) {
-  const TiePlace place = place_of(tie, [&](std::size_t body) {
+/// Where a tie is, a share of a plan ahead.
+TiePlace place_ahead(IslandState& state, const SimTie& tie, const Plan& plan, double span,
+                     double share) {
+  return place_of(tie, [&](std::size_t body) {
     const auto member = state.place.find(body);
     if (member == state.place.end()) {
       return scripted_pose(state.model, state.start, body,
@@ -66,7 +67,33 @@ double length_at(IslandState& state, const SimTie& tie, const Plan& plan, double
     const std::size_t k = member->second;
     return motion_of(state.member(k), state.states[k].X_WB, plan.moves[k]).pose(share);
   });
-  return place.between().norm();
+}
+
+/// [m]
+double length_at(IslandState& state, const SimTie& tie, const Plan& plan, double span,
+                 double share) {
+  return place_ahead(state, tie, plan, span, share).between().norm();
+}
+
+/// [m]  How far a joint is apart, or a cable beyond its length. What is turned off a joint counts
+/// by the reach of its bodies.
+double torn_at(const IslandState& state, const SimTie& tie, const TiePlace& place) {
+  if (tie.is_inextensible()) {
+    return place.between().norm() - tie.length;
+  }
+  if (!tie.is_joint()) {
+    return 0.0;
+  }
+  double reach = 0.0;
+  for (const TieEnd& end : tie.ends) {
+    reach = std::max(reach, end.body ? state.model.bodies[*end.body].reach : 0.0);
+  }
+  const std::vector<double> off = displacements_of(tie, place);
+  double most = 0.0;
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    most = std::max(most, (k < 3 ? 1.0 : reach) * std::abs(off[k]));
+  }
+  return most;
 }
 
 }  // namespace
@@ -225,6 +252,19 @@ double share_within_cables(IslandState& state, const Plan& plan, double span) {
     share = low;
   }
   return share;
+}
+
+bool tears_ties(IslandState& state, const Plan& plan, double span) {
+  return std::ranges::any_of(state.ties, [&](std::size_t t) {
+    const SimTie& tie = state.model.ties[t];
+    const TiePlace place = place_now(state, tie);
+    if (tie.is_inextensible() && state.taut <= kMostTautEvents && !is_taut(state, tie, place)) {
+      return false;  // The plan is followed until it is taut.
+    }
+    const double now = torn_at(state, tie, place);
+    const double most = std::max(state.model.distances.least, kTearing * now);
+    return torn_at(state, tie, place_ahead(state, tie, plan, span, 1.0)) > most;
+  });
 }
 
 bool is_pulled(const SimulationModel& model, const StepStart& start,

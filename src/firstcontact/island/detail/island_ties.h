@@ -64,6 +64,12 @@ void add_outer_of_ties(const ContactProblem& problem, const ContactSolution& sol
 /// [-]  How far a plan may be followed before a cable that does not stretch becomes taut.
 [[nodiscard]] double share_within_cables(IslandState& state, const Plan& plan, double span);
 
+/// Whether joints are farther apart where a plan ends than a contact distance, or cables longer.
+///
+/// Nothing that can be met does that: a script pulls at what cannot follow, or a loop that is
+/// singular has no solution.
+[[nodiscard]] bool tears_ties(IslandState& state, const Plan& plan, double span);
+
 /// Whether a scripted body that moves in the step is tied to one of these.
 [[nodiscard]] bool is_pulled(const SimulationModel& model, const StepStart& start,
                              const std::vector<std::size_t>& members);

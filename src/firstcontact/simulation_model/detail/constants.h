@@ -258,6 +258,13 @@ inline constexpr double kFarthestOfGap = 20.0;
 inline constexpr std::size_t kMostTautEvents = 20;
 /// [rad]  Bodies with ties turn no farther in a plan.
 inline constexpr double kMostTurnOfTied = 0.25;
+/// [rad]  No plan that turns a body with ties farther can be meant.
+inline constexpr double kWildTurnOfTied = 1e6;
+/// [-]  Joints that are apart already get no farther apart in a plan than by this factor.
+inline constexpr double kTearing = 2.0;
+/// [-]  In a step the energy of bodies that joints alone hold changes by no more of the kinetic
+/// one. Where it would, plans become shorter.
+inline constexpr double kEnergyOfTied = 1e-3;
 /// [-]  Where forces of ties are not found, plans become shorter, down to this part of the step.
 inline constexpr double kLeastShareOfTied = 1.0 / 16.0;
 /// [-]  Islands with ties sleep at this part of the speed of others: a soft spring is slow where it

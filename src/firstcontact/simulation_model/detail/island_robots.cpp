@@ -329,6 +329,25 @@ void IslandRobots::keep_momenta(const std::vector<OuterImpulse>& outer, double s
   }
 }
 
+bool IslandRobots::are_passive(const std::vector<RobotPlan>& plans) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const SimRobot& robot = *robots_[r].robot;
+    if (!robot.is_passive(robots_[r].state.positions) ||
+        !robot.is_passive(plans[r].end.positions)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+MechanismMechanics IslandRobots::mechanics(std::size_t robot) const {
+  return mechanics(robot, robots_[robot].state);
+}
+
+MechanismMechanics IslandRobots::mechanics(std::size_t robot, const MechanismState& state) const {
+  return robots_[robot].robot->mechanism.mechanics(state, model_.gravity);
+}
+
 void IslandRobots::displace(const std::vector<VectorXd>& by, std::vector<RobotPlan>& plans) const {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     VectorXd& positions = plans[r].end.positions;

@@ -217,6 +217,13 @@ class IslandRobots {
   /// [-]  How far plans may be followed before a joint leaves its limits.
   [[nodiscard]] double share_within_limits(const std::vector<RobotPlan>& plans) const;
 
+  /// Whether no joint takes or gives energy, now and where plans end.
+  [[nodiscard]] bool are_passive(const std::vector<RobotPlan>& plans) const;
+
+  /// Of a robot now, or in another state.
+  [[nodiscard]] MechanismMechanics mechanics(std::size_t robot) const;
+  [[nodiscard]] MechanismMechanics mechanics(std::size_t robot, const MechanismState& state) const;
+
   /// Goes a share of the way to a plan. `to` is the time since the step began.
   void move_to(const std::vector<RobotPlan>& plans, double share, double span, double to);
 

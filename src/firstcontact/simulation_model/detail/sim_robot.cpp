@@ -228,6 +228,15 @@ bool SimRobot::is_driven() const {
   });
 }
 
+bool SimRobot::is_passive(const Eigen::VectorXd& positions) const {
+  return std::ranges::none_of(laws, [&](const JointLaw& law) {
+    const double at = positions[law.position];
+    return law.motor || law.damping > 0.0 || law.friction > 0.0 ||
+           (law.limits.lower && at < *law.limits.lower + kAtLimit) ||
+           (law.limits.upper && at > *law.limits.upper - kAtLimit);
+  });
+}
+
 std::size_t SimRobot::motor_count() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(laws, [](const JointLaw& law) { return law.motor.has_value(); }));

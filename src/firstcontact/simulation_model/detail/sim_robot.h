@@ -31,6 +31,10 @@ struct SimRobot {
   /// Whether any joint has a motor, limits, damping or friction.
   [[nodiscard]] bool is_driven() const;
 
+  /// Whether its joints take and give no energy in a motion: nothing brakes or drives them, and
+  /// none is at its limits.
+  [[nodiscard]] bool is_passive(const Eigen::VectorXd& positions) const;
+
   /// How many motors there are, and how many of them no effort bounds: they answer impacts.
   [[nodiscard]] std::size_t motor_count() const;
   [[nodiscard]] std::size_t rigid_motor_count() const;

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
-#include "simulation/tie_laws.h"
 
 namespace firstcontact {
 namespace {

@@ -14,8 +14,8 @@
 
 #include <firstcontact/record/write_run.h>
 
+#include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
-#include "simulation/tie_laws.h"
 
 namespace firstcontact {
 namespace {
@@ -478,6 +478,63 @@ TEST(Tie, ScriptedBodiesPullCables) {
 }
 
 // A run that is resumed goes on bit for bit.
+/// A ball that a script leads away by 1 m and back, in 2 s.
+const std::string kPuller = R"({"name": "A", "shape": {"sphere": {"radius": 0.1}}, "motion":
+    {"type": "waypoints", "times": [0, 1, 2], "poses": [{"position": [0, 0, 0]},
+     {"position": [1, 0, 0]}, {"position": [0, 0, 0]}]}})";
+
+/// It is tied to a ball 1 m beside it.
+Simulator pulled(const std::string& ties, const std::string& more = "",
+                 const std::string& jams = "lose_time") {
+  return simulator(kPuller + "," + mass_at("B", {-1, 0, 0}, Vector3d::Zero()) + more,
+                   tie_settings(0.01, ties, false) + R"(, "jams": ")" + jams + "\"");
+}
+
+// A script pulls at what the world holds: ties do not break, so time is lost. Before, the points
+// were 1 m apart in the end, and nothing said so.
+TEST(Tie, ScriptsDoNotTearThem) {
+  const std::string held = R"({"type": "weld", "bodies": [null, "B"]})";
+  for (
+      const std::string tie :
+      {R"({"type": "weld", "bodies": ["A", "B"]})",
+       R"({"type": "pin", "bodies": ["A", "B"], "points": [[0, 0, 0], null]})",
+       R"({"type": "cable", "bodies": ["A", "B"], "points": [[0, 0, 0], [0, 0, 0]], "length": 1.2})"}) {
+    const double slack = tie.find("cable") != std::string::npos ? 0.2 : 0.0;
+    Simulator s = pulled(std::string(tie) + "," + held);
+    double lost = 0.0;
+    for (const RunStep& step : run(s, 100)) {
+      lost += step.time_lost;
+    }
+    EXPECT_NEAR(lost, 1.0 - slack, 0.02) << tie;
+    EXPECT_NEAR((s.states()[0].X_WB.position - s.states()[1].X_WB.position).norm(), 1.0 + slack,
+                1e-3)
+        << tie;
+  }
+}
+
+// With "wait" the script alone stands still, and goes on where it leads back.
+TEST(Tie, ScriptsThatPullWait) {
+  const std::string wall = "," + body("w", box("[0.1, 1, 1]"), "[-0.5, 0, 0.2]");
+  const std::string cable = R"({"type": "cable", "bodies": ["A", "B"],
+                               "points": [[0, 0, 0], [0, 0, 0]], "length": 1.2})";
+  const std::string weld = R"({"type": "weld", "bodies": ["A", "B"]})";
+  for (const std::string& tie : {cable, weld}) {
+    Simulator s = pulled(tie, wall, "wait");
+    double most = 0.0;  // [m]
+    for (const RunStep& step : run(s, 200)) {
+      ASSERT_EQ(step.time_lost, 0.0) << tie << " " << step.index;
+      for (const RunBody& moved : step.bodies) {
+        const double x = moved.X_WB.position.x();
+        most = std::max(most, moved.body == 0 ? x : most);
+        ASSERT_TRUE(moved.body == 0 || x <= -0.6) << tie << " " << step.index;
+      }
+    }
+    const double reach = tie == cable ? 0.6 : 0.4;  // Until B is at the wall.
+    EXPECT_NEAR(most, reach, 5e-3) << tie;
+    EXPECT_NEAR(s.states()[0].X_WB.position.x(), 0.0, 0.02) << tie;
+  }
+}
+
 TEST(Tie, RunsAreResumed) {
   const auto made = [] { return orbiting(0.02); };
   Simulator whole = made();

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
-#include "simulation/tie_laws.h"
 
 namespace firstcontact {
 namespace {
