@@ -201,6 +201,34 @@ TEST(Tie, SpringOfNoLengthIsHarmonic) {
 }
 
 // An anisotropic box that turns on a spring at its corner: bodies with arms, too.
+// It acts along the line between the points, as one of a length does: two balls that orbit on it
+// keep their angular momentum, and do not begin to spin.
+TEST(Tie, DamperOfASpringOfNoLengthActsAlongItsLine) {
+  const std::string balls =
+      mass_at("a", {-0.5, 0, 0}, {0, -1, 0}) + "," + mass_at("b", {0.5, 0, 0}, {0, 1, 0});
+  const auto orbit = [&](const std::string& law) {
+    Simulator s = simulator(balls, tie_settings(0.01,
+                                                R"({"type": "spring", "bodies": ["a", "b"],
+                                      "points": [[0, 0, 0], [0, 0, 0]], )" +
+                                                    law + "}",
+                                                false));
+    return run(s, 300);
+  };
+  const std::vector<RunStep> none = orbit(R"("length": 0, "stiffness": 2, "damping": 1)");
+  const std::vector<RunStep> tiny = orbit(R"("length": 1e-9, "stiffness": 2, "damping": 1)");
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    ASSERT_LE((none[i].angular_momentum - Vector3d(0, 0, 1)).norm(), 1e-9) << i;
+    ASSERT_LE(none[i].bodies[0].angular_velocity.norm(), 1e-3) << i;
+    for (std::size_t b = 0; b < 2; ++b) {
+      ASSERT_LE((none[i].bodies[b].X_WB.position - tiny[i].bodies[b].X_WB.position).norm(), 1e-4)
+          << i;
+    }
+  }
+  // A damper alone, and one whose points are together at the start.
+  const std::vector<RunStep> alone = orbit(R"("length": 0, "damping": 1)");
+  EXPECT_NEAR(alone.back().angular_momentum.z(), 1.0, 1e-9);
+}
+
 TEST(Tie, SpringAtACornerIsOfSecondOrder) {
   const auto made = [](double h) {
     return simulator(body("a", box("[0.3, 0.2, 0.1]"), "[0.4, 0, 0]",

@@ -32,6 +32,32 @@ const std::string kFree = R"(, "dynamics": {})";
 
 // --- Closed forms --------------------------------------------------------------------------------
 
+// A force too great for doubles, in the second of the parts into which a script with kinks takes
+// the step: a step is taken whole, or nothing has changed.
+TEST(Simulator, AStepThatThrowsChangesNothing) {
+  std::string times = "0";
+  std::string poses = R"({"position": [-5, 0, 10]})";
+  for (int k = 1; k < 100; ++k) {
+    times += ", " + std::to_string(0.003 * k);
+    poses += std::string(R"(, {"position": [)") + (k % 2 == 0 ? "-5" : "-4.95") + ", 0, 10]}";
+  }
+  const std::string far = R"({"name": "far", "shape": {"sphere": {"radius": 0.01}}, "motion":
+      {"type": "waypoints", "times": [)" +
+                          times + R"(], "poses": [)" + poses + "]}}";
+  const std::string light = body("light", test::ball("0.1"), "[0, 0, 0]",
+                                 R"(, "dynamics": {"mass": 1e-12, "linear_velocity": [1, 0, 0],
+      "forces": [{"from": 0.016, "to": 1, "force": [1e58, 0, 0]}]})");
+  Simulator s =
+      simulator(far + "," + light, R"("step": 0.01, "duration": 0.1, "gravity": [0, 0, 0])");
+  ASSERT_TRUE(s.step());
+  const double time = s.time();
+  const Eigen::Vector3d at = s.states()[1].X_WB.position;
+  EXPECT_THROW(static_cast<void>(s.step()), std::invalid_argument);
+  EXPECT_EQ(s.time(), time);
+  EXPECT_EQ(s.step_count(), 1u);
+  EXPECT_EQ(s.states()[1].X_WB.position, at);
+}
+
 TEST(Simulator, FreeFlightIsExact) {
   Simulator s = simulator(
       body("a", box("[1, 2, 3]"), "[0, 0, 0]", R"(, "dynamics": {"linear_velocity": [1, 2, 3]})"),

@@ -97,7 +97,7 @@ class Simulator::Implementation {
     state_.rests.assign(state_.states.size(), false);
     state_.behind.assign(state_.states.size(), 0.0);
     follow_robots(state_.states);
-    require_apart(state_.states, [](std::size_t) { return true; });
+    require_apart({}, state_.states, [](std::size_t) { return true; });
   }
 
   const RunHeader& header() const { return header_; }
@@ -117,13 +117,15 @@ class Simulator::Implementation {
     if (!state.X_WB.position.allFinite() || !state.X_WB.rotation.coeffs().allFinite() ||
         !is_rotation(state.X_WB.rotation.coeffs()) || !state.v_WC.allFinite() ||
         !state.w_WB.allFinite()) {
-      throw std::invalid_argument("set_state: numbers must be finite, and the quaternion not zero");
+      throw std::invalid_argument(
+          "set_state: numbers must be finite, and the length of the quaternion not zero nor beyond "
+          "doubles");
     }
     std::vector<RigidState> states = state_.states;
     states[body] = state;
     states[body].X_WB.rotation.normalize();
     lock(model_.bodies[body].inertia, states[body]);
-    require_apart(states, [body](std::size_t b) { return b == body; });
+    require_apart("set_state", states, [body](std::size_t b) { return b == body; });
     require_tied("set_state", states);
     state_.states = std::move(states);
     state_.rests.assign(state_.states.size(), false);  // What it held may fall.
@@ -154,7 +156,7 @@ class Simulator::Implementation {
     std::vector<RigidState> states = state_.states;
     try {
       follow_robots(states);
-      require_apart(states, [&](std::size_t b) {
+      require_apart("set_robot_state", states, [&](std::size_t b) {
         return model_.bodies[b].link_body && model_.bodies[b].link_body->robot == robot;
       });
       require_tied("set_robot_state", states);
@@ -203,8 +205,10 @@ class Simulator::Implementation {
     if (!gravity.allFinite()) {
       throw std::invalid_argument("set_gravity: numbers must be finite");
     }
-    model_.gravity = gravity;
-    wake();
+    if (gravity != model_.gravity) {
+      model_.gravity = gravity;
+      wake();
+    }
   }
 
   void set_surface(std::size_t body, const Surface& surface) {
@@ -250,6 +254,7 @@ class Simulator::Implementation {
                                   std::to_string(moving) + " bodies, not " +
                                   std::to_string(moving_bodies()));
     }
+    forget_forces();
     state_.states = std::move(states);
     state_.robots = std::move(robots);
     state_.time = step.time;
@@ -266,8 +271,14 @@ class Simulator::Implementation {
 
   std::optional<RunStep> step(const std::stop_token& stop) {
     detail::SimulationState before = state_;
-    std::optional<RunStep> done =
-        detail::advance_step(model_, script_, *loaded_.scene.simulation, *threads_, stop, state_);
+    std::optional<RunStep> done;
+    try {
+      done =
+          detail::advance_step(model_, script_, *loaded_.scene.simulation, *threads_, stop, state_);
+    } catch (...) {
+      state_ = std::move(before);
+      throw;
+    }
     if (done) {
       end_forces(*done);
     } else {
@@ -323,9 +334,16 @@ class Simulator::Implementation {
   /// run that is resumed here, too.
   void end_forces(RunStep& done) {
     for (const std::size_t b : applied_) {
-      model_.bodies[b].forces.pop_back();
       state_.rests[b] = false;
       std::ranges::find(done.bodies, b, &RunBody::body)->rests = false;
+    }
+    forget_forces();
+  }
+
+  /// Takes away the forces that are for the next step alone.
+  void forget_forces() {
+    for (const std::size_t b : applied_) {
+      model_.bodies[b].forces.pop_back();
     }
     applied_.clear();
   }
@@ -382,14 +400,16 @@ class Simulator::Implementation {
   }
 
   /// Throws std::invalid_argument where a pair meets with a body that `concerns` says yes to.
-  void require_apart(const std::vector<RigidState>& states,
+  ///
+  /// @param call  that moves bodies there; empty: they start there
+  void require_apart(const std::string& call, const std::vector<RigidState>& states,
                      const std::function<bool(std::size_t)>& concerns) {
     if (const auto pair = detail::find_meeting(model_, states, concerns, threads_->workspace())) {
       const auto& bodies = loaded_.scene.bodies;
-      throw std::invalid_argument("bodies \"" + bodies[(*pair)[0]].name + "\" and \"" +
-                                  bodies[(*pair)[1]].name +
-                                  "\" meet at the start; move them apart, or ignore the pair in "
-                                  "\"pairs\"");
+      throw std::invalid_argument((call.empty() ? "" : call + ": ") + "bodies \"" +
+                                  bodies[(*pair)[0]].name + "\" and \"" + bodies[(*pair)[1]].name +
+                                  "\" meet " + (call.empty() ? "at the start" : "there") +
+                                  "; move them apart, or ignore the pair in \"pairs\"");
     }
   }
 

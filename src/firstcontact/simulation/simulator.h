@@ -129,15 +129,18 @@ class FIRSTCONTACT_API Simulator {
 
   /// Goes on after a step of a run with the same header.
   ///
-  /// On the same kind of processor it goes on bit for bit as the run did. A record has no commands:
-  /// forces are applied again, and motors, gravity and surfaces set again by the caller.
+  /// On the same kind of processor it goes on bit for bit as the run did. A record has no commands.
+  /// The caller sets motors, gravity and surfaces before this call, as they wake what rests, and
+  /// applies forces after it.
   ///
-  /// @throws std::invalid_argument if the step is not of such a run
+  /// @throws std::invalid_argument if the step moves other bodies or joints than this scene does
   void resume(const RunStep& step);
 
   /// Advances by the scene's step, or as far as could be proven.
   ///
-  /// @returns  nothing if it was stopped: then nothing has changed
+  /// Where it was stopped, or throws, nothing has changed.
+  ///
+  /// @returns  nothing if it was stopped
   [[nodiscard]] std::optional<RunStep> step(const std::stop_token& stop = {});
 
  private:

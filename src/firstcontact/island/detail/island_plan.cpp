@@ -6,6 +6,7 @@
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/island_ties.h>
 #include <firstcontact/island/detail/tied_energy.h>
+#include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
@@ -108,13 +109,38 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
   made.least = least - drift_along(touch.bodies, made.now) / span_;
   if (most_change(made.now, sides, span_) <= kLeastTolerance) {
+    made.change_of_belt = change_of_belt(made.now, touch.bodies, sides, made.now.frame);
     return made;
   }
   const double distance = distance_of(touch);
   made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
-  made.change = moved_contact(touch, made.now, distance, sides, span_).velocity(sides) -
-                made.halfway.velocity(sides);
+  const MovedContact there = moved_contact(touch, made.now, distance, sides, span_);
+  made.change = there.velocity(sides) - made.halfway.velocity(sides);
+  made.change_of_belt = change_of_belt(made.now, touch.bodies, sides, there.frame);
   return made;
+}
+
+/// [m/s]  How much the velocity at which a contact sticks differs where the plan ends: belts turn
+/// with their bodies, and carry the contact to where these move otherwise.
+///
+/// @param frame  of the contact there
+Eigen::Vector2d IslandPlanner::change_of_belt(const ContactPoint& now, const BodyPair& pair,
+                                              const std::array<ContactSide, 2>& sides,
+                                              const Eigen::Matrix3d& frame) const {
+  Eigen::Vector2d there = Eigen::Vector2d::Zero();
+  bool runs = false;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Vector3d& belt = state_.model.laws.belt(pair[s]);
+    if (belt.any()) {
+      const Vector3d& w = sides[s].w;
+      const Vector3d now_running = sides[s].R_WB * belt;
+      const Vector3d carried = span_ * (turn(0.5 * span_ * w) * now_running);
+      const Vector3d running = turn(span_ * w) * now_running + w.cross(carried);
+      there += (s == 0 ? 1.0 : -1.0) * (frame * running).tail<2>();
+      runs = true;
+    }
+  }
+  return runs ? Eigen::Vector2d(there - now.sticking_velocity) : Eigen::Vector2d::Zero();
 }
 
 void IslandPlanner::append(const ManifoldPoint& touch, const ContactPoint& contact) {

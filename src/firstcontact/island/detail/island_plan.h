@@ -39,6 +39,8 @@ struct ActingContact {
   /// [m/s]  How much the geometry changes a velocity from halfway to the end: of those of now, or
   /// on a curve of those that the last solution has at the end.
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
+  /// [m/s]  Where the plan ends, of the velocity at which it sticks.
+  Eigen::Vector2d change_of_belt = Eigen::Vector2d::Zero();
   bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
   double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
   bool is_replaced = false;  ///< By a predicted contact of the same features.
@@ -157,6 +159,9 @@ class IslandPlanner {
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
+  [[nodiscard]] Eigen::Vector2d change_of_belt(const ContactPoint& now, const BodyPair& pair,
+                                               const std::array<ContactSide, 2>& sides,
+                                               const Eigen::Matrix3d& frame) const;
   [[nodiscard]] ContactSide side_of(const ManifoldPoint& touch, std::size_t side) const;
   void append(const ManifoldPoint& touch, const ContactPoint& contact);
   [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;

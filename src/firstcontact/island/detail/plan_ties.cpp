@@ -33,6 +33,22 @@ Vector3d mean_direction(const Vector3d& now, const Vector3d& end) {
   return now.norm() > 0.0 ? Vector3d(now.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
+/// Three axes: the first one along the line between the points of a spring of no length, as its
+/// damper acts along that line alone.
+std::vector<TieDirection> axes_of_line(const Vector3d& now, const Vector3d& end) {
+  const Vector3d sum = now.dot(end) >= 0.0 ? Vector3d(now + end) : Vector3d(end - now);
+  const Vector3d along =
+      sum.norm() > 0.0 ? Vector3d(sum.normalized()) : Vector3d(Vector3d::UnitX());
+  Eigen::Index least = 0;
+  now.cwiseAbs().minCoeff(&least);
+  Vector3d across = along.cross(Vector3d::Unit(least));
+  if (!(across.norm() > 0.1)) {
+    across = along.unitOrthogonal();
+  }
+  across.normalize();
+  return {{.linear = along}, {.linear = across}, {.linear = along.cross(across)}};
+}
+
 double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
   double u = 0.0;
   for (const TieSide& side : row.sides) {
@@ -193,7 +209,7 @@ void PlanTies::set_directions(Acting& acting) const {
     return;
   }
   if (tie.is_vector()) {
-    acting.halfway = directions_of(tie, acting.end);
+    acting.halfway = axes_of_line(acting.now.between(), acting.end.between());
     acting.changing = acting.halfway;
     return;
   }
@@ -271,14 +287,19 @@ void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFl
 void PlanTies::add_spring(Acting& acting, std::size_t k, const ProblemBodies& now,
                           const std::array<TiedSide, 2>& sides,
                           const std::vector<ContactBody>& flown, ContactProblem& problem) const {
-  const SimTie& tie = *acting.tie;
+  SimTie tie = *acting.tie;
+  tie.damping = k == 0 ? tie.damping : 0.0;  // It acts along the line.
   TieRow& row = problem.ties.back();
+  if (tie.stiffness == 0.0 && tie.damping == 0.0) {
+    take_out(row);
+    return;
+  }
   std::array<TiedSide, 2> as_they_are = sides;
   for (TiedSide& side : as_they_are) {
     side.inertia = nullptr;
   }
   const auto extension = [&](const TiePlace& place) {
-    return tie.is_vector() ? place.between()[static_cast<Eigen::Index>(k)]
+    return tie.is_vector() ? place.between().dot(acting.changing[k].linear)
                            : place.between().norm() - tie.length;
   };
   SpringWay way;
