@@ -65,6 +65,9 @@ TiePlace place_ahead(IslandState& state, const SimTie& tie, const Plan& plan, do
                            (state.reached + share * span) / state.start.h);
     }
     const std::size_t k = member->second;
+    if (state.member(k).link_body) {  // Its piece of the run is a chord of the way of its joints.
+      return state.robots.pose_ahead(k, plan.robots, share);
+    }
     return motion_of(state.member(k), state.states[k].X_WB, plan.moves[k]).pose(share);
   });
 }

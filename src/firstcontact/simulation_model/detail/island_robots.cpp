@@ -136,6 +136,16 @@ RigidState IslandRobots::state(std::size_t member) const {
   return {place_of(member).X_WB, moving.v, moving.w};
 }
 
+Pose IslandRobots::pose_ahead(std::size_t member, const std::vector<RobotPlan>& plans,
+                              double share) const {
+  const auto& [r, piece] = place_[member];
+  const Mechanism& mechanism = robots_[r].robot->mechanism;
+  const MechanismState& end = plans[r].end;
+  const MechanismState there{mechanism.between(robots_[r].state.positions, end.positions, share),
+                             end.velocities};
+  return link_body_pose(*robots_[r].links[piece].body, mechanism.at(there));
+}
+
 Move IslandRobots::drift(std::size_t member, const Pose& X_WB) const {
   const auto& [robot, piece] = place_[member];
   return move_between(*robots_[robot].links[piece].body, X_WB, place_of(member).X_WB,

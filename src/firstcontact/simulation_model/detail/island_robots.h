@@ -120,6 +120,10 @@ class IslandRobots {
   /// Where the joints have a member, and how it moves.
   [[nodiscard]] RigidState state(std::size_t member) const;
 
+  /// Where the joints have a member a share of plans ahead.
+  [[nodiscard]] Pose pose_ahead(std::size_t member, const std::vector<RobotPlan>& plans,
+                                double share) const;
+
   /// [m, rad]  From where a link body is to where its joints have it now.
   [[nodiscard]] Move drift(std::size_t member, const Pose& X_WB) const;
 
