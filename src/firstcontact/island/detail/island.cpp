@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include <firstcontact/island/detail/angular_momentum.h>
 #include <firstcontact/island/detail/impact_search.h>
 #include <firstcontact/island/detail/island_plan.h>
 #include <firstcontact/island/detail/island_response.h>
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/island_ties.h>
+#include <firstcontact/island/detail/loose_momenta.h>
 #include <firstcontact/island/detail/met_scripts.h>
 #include <firstcontact/island/detail/sleeping.h>
 #include <firstcontact/record/detail/earlier_impulses.h>
@@ -294,13 +294,13 @@ class Island {
   void move_bodies(const Plan& plan, const std::vector<ManifoldPoint>& touches, double t,
                    double to) {
     const std::vector<RigidState> begin = state_.states;
-    const auto momentum = angular_momentum_ahead(state_, touches, planned_, t);
+    const std::optional<Momenta> momenta = momenta_ahead(state_, touches, planned_, t);
     state_.robots.move_to(plan.robots, t, planned_, to);
     for (std::size_t k = 0; k < state_.size(); ++k) {
       state_.states[k] = state_ahead(plan, k, t);
     }
-    if (momentum) {
-      take_angular_momentum(*momentum, state_);
+    if (momenta && t > 0.0) {
+      take_momenta(*momenta, state_);
     }
     for (std::size_t k = 0; k < state_.size() && t > 0.0; ++k) {
       const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <firstcontact/mechanism/detail/spatial.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
@@ -405,6 +406,25 @@ void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, do
     }
     robot.now = view_of(robot, robot.state);
   }
+}
+
+/// The block of its base in the mass matrix is that of the whole, about the reference point.
+Eigen::Matrix3d IslandRobots::inertia(std::size_t robot) const {
+  const MechanismInstant instant = robots_[robot].robot->mechanism.at(robots_[robot].state);
+  const MechanismMechanics whole = mechanics(robot);
+  const Eigen::Matrix3d arm = cross_matrix(whole.p_WC - instant.reference);
+  return robots_[robot].robot->mechanism.mass_matrix(instant).block<3, 3>(3, 3) +
+         whole.mass * arm * arm;
+}
+
+void IslandRobots::move_faster(std::size_t r, const Vector3d& v, const Vector3d& w,
+                               const Vector3d& point) {
+  Robot& robot = robots_[r];
+  const Vector3d reference = robot.robot->mechanism.at(robot.state).reference;
+  robot.state.velocities.head<3>() += v + w.cross(reference - point);
+  robot.state.velocities.segment<3>(3) += w;
+  robot.track.pieces.back().end.velocities = robot.state.velocities;
+  robot.now = view_of(robot, robot.state);
 }
 
 void IslandRobots::take_velocities(const ContactSolution& solution,

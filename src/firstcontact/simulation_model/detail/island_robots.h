@@ -231,6 +231,14 @@ class IslandRobots {
   /// Goes a share of the way to a plan. `to` is the time since the step began.
   void move_to(const std::vector<RobotPlan>& plans, double share, double span, double to);
 
+  /// [kg m^2]  Of a floating robot about its centre of mass, as one body.
+  [[nodiscard]] Eigen::Matrix3d inertia(std::size_t robot) const;
+
+  /// Lets a floating robot move faster as one body, from where it moved to: by v [m/s] at a point
+  /// [m] about which it turns faster by w [rad/s].
+  void move_faster(std::size_t robot, const Eigen::Vector3d& v, const Eigen::Vector3d& w,
+                   const Eigen::Vector3d& point);
+
   /// Takes the velocities of the impact now, and what motors did to them.
   ///
   /// @param outer  of each robot
