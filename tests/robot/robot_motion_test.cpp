@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot_files/read_urdf.h>
@@ -64,6 +66,27 @@ TEST(RobotMotion, MovesAPlanarArm) {
     const Vector3d expected(std::cos(a) + 0.5 * std::cos(b), std::sin(a) + 0.5 * std::sin(b), 0.0);
     EXPECT_LE((hand.at(t).pose(t).p_OL - expected).norm(), 1e-15);
   }
+}
+
+/// [s]  To make the motion of an arm along so many points, and all its coordinates.
+double seconds_for(std::size_t points) {
+  std::vector<double> times(points);
+  std::vector<double> positions(points);
+  for (std::size_t k = 0; k < points; ++k) {
+    times[k] = static_cast<double>(k) / static_cast<double>(points - 1);
+    positions[k] = std::sin(1e-3 * static_cast<double>(k));
+  }
+  const CoordinatePath path = CoordinatePath::linear(times, positions);
+  const auto start = std::chrono::steady_clock::now();
+  const RobotMotion motion(arm(), {{"shoulder", path}, {"elbow", ramp(0.0, 1.0)}});
+  EXPECT_EQ(motion.coordinate(0).size(), points - 1);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Sixteen times the points would take 256 times as long if each piece were looked for among all.
+TEST(RobotMotion, TakesTimeInProportionToThePoints) {
+  const double few = seconds_for(4'000);
+  EXPECT_LT(seconds_for(64'000), 100.0 * few + 0.5);
 }
 
 // A joint that mimics another follows its new motion; others keep theirs.

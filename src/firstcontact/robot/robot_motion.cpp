@@ -66,12 +66,12 @@ void require_match(const Joint& joint, const JointMotion& motion) {
   }
 }
 
+/// The segment that holds a window of time, which none of its ends divides.
 const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, double t_end) {
-  const auto holds = [&](const CoordinateSegment& s) {
-    return s.t_begin <= t_begin && t_end <= s.t_end;
-  };
-  const auto found = std::find_if(path.segments().begin(), path.segments().end(), holds);
-  assert(found != path.segments().end());
+  const auto ends_before = [](const CoordinateSegment& s, double t) { return s.t_end < t; };
+  const auto found =
+      std::lower_bound(path.segments().begin(), path.segments().end(), t_end, ends_before);
+  assert(found != path.segments().end() && found->t_begin <= t_begin);
   return *found;
 }
 
