@@ -97,6 +97,11 @@ TEST(RobotModel, RefusesNumbersWithoutSense) {
   RobotDescription robot = fork();
   robot.joints[0].axis.setZero();
   EXPECT_EQ(defect_of(robot), "joint 'ja': its axis must be finite and not zero");
+  for (const double size : {1e-300, 1e100}) {
+    robot.joints[0].axis = size * Eigen::Vector3d::UnitZ();
+    EXPECT_EQ(defect_of(robot),
+              "joint 'ja': its axis must be from 1e-60 to 1e60 in size; give it the length 1");
+  }
   robot = fork();
   robot.joints[0].limits = {.lower = 1.0, .upper = -1.0};
   EXPECT_EQ(defect_of(robot), "joint 'ja': its lower limit is above its upper limit");
@@ -117,6 +122,9 @@ TEST(RobotModel, RefusesMimicsThatMeanNothing) {
   robot.joints[0].mimic = Mimic{.joint = "jb"};
   robot.joints[1].mimic = Mimic{.joint = "ja"};
   EXPECT_NE(defect_of(robot).find("it mimics itself, by way of other joints"), std::string::npos);
+  robot = fork();
+  robot.joints[0].mimic = Mimic{.joint = "ja"};
+  EXPECT_EQ(defect_of(robot), "joint 'ja': it mimics itself; name another joint");
   robot = fork();
   robot.joints[0].mimic = Mimic{.joint = "jb"};
   robot.joints[1].type = JointType::planar;

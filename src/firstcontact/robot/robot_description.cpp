@@ -43,8 +43,11 @@ std::string wrong_number(const Joint& joint) {
   if (!is_pose(joint.X_PJ)) {
     return "its origin must be finite, at most 1e60 in size, and its quaternion not zero";
   }
-  if (!joint.axis.allFinite() || !is_length(joint.axis.cwiseAbs().maxCoeff())) {
+  if (!joint.axis.allFinite() || joint.axis.isZero(0.0)) {
     return "its axis must be finite and not zero";
+  }
+  if (!is_length(joint.axis.cwiseAbs().maxCoeff())) {
+    return "its axis must be from 1e-60 to 1e60 in size; give it the length 1";
   }
   if (!(std::abs(joint.pitch) <= kGreatest)) {
     return "its pitch must be finite";
@@ -186,7 +189,9 @@ class DefectSearch {
         at = mimicked(*at);
       }
       if (at && visits[*at] == Visit::open) {
-        at_joint(*at, place(*at) + "it mimics itself, by way of other joints");
+        const bool at_once = mimicked(*at) == at;
+        at_joint(*at, place(*at) + "it mimics itself" +
+                          (at_once ? "; name another joint" : ", by way of other joints"));
       }
       for (const std::size_t passed : path) {
         visits[passed] = Visit::done;
