@@ -307,6 +307,16 @@ TEST_F(GltfSkins, AreRefusedWhereTheyDoNotFit) {
   EXPECT_TRUE(is_refused(gltf, "WEIGHTS_0"));
 }
 
+// As shares of the greatest integer, all joints but one would be joint 0.
+TEST_F(GltfSkins, HaveNoNormalisedJoints) {
+  GltfWriter gltf = bound<std::uint8_t, float>(0.5f, 0.5f);
+  const std::vector<std::uint8_t> joints(32, 1);
+  const std::size_t index = gltf.add_numbers(joints, "VEC4", "\"normalized\":true,");
+  gltf.meshes = {mesh_text(
+      {primitive_text(0, 1, R"(,"JOINTS_0":)" + std::to_string(index) + R"(,"WEIGHTS_0":3)")})};
+  EXPECT_TRUE(is_refused(gltf, "normalized: expected false here"));
+}
+
 class GltfMorphs : public GltfTest {
  protected:
   /// The body with a target that moves the top by (0, 0, 64), and a second one by (128, 0, 0).

@@ -252,6 +252,22 @@ TEST_F(GltfRefusal, NamesUnknownExtensionsOfWhatHoldsGeometry) {
   EXPECT_EQ(reading.report.warnings.size(), 1u);
 }
 
+// As shares of the greatest integer they would all be vertex 0 or 1.
+TEST_F(GltfRefusal, NamesNormalisedIndices) {
+  for (const std::string flag : {"true", "false"}) {
+    GltfWriter gltf;
+    gltf.add_numbers(test::float_positions(), "VEC3");
+    gltf.add_numbers(test::indices_of_triangles(), "SCALAR", "\"normalized\":" + flag + ",");
+    gltf.meshes = {mesh_text({primitive_text(0, 1)})};
+    gltf.nodes = {R"({"mesh":0})"};
+    if (flag == "true") {
+      EXPECT_TRUE(is_refused(gltf, "accessors[1].normalized: expected false here"));
+    } else {
+      EXPECT_TRUE(has_corners(read_glb(gltf), float_corners()));
+    }
+  }
+}
+
 TEST_F(GltfRefusal, NamesHiddenNodes) {
   GltfWriter gltf = plain_gltf();
   gltf.nodes = {R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}})"};

@@ -136,6 +136,11 @@ GltfAccessor GltfAccessorReader::read(const JsonValue& value, const GltfExpected
   shape.type = number_type(where);
   if (const JsonValue* const normalized = find(object, "normalized")) {
     shape.normalized = document_.reader().boolean(*normalized) && shape.type != GltfNumber::float32;
+    if (shape.normalized && !expected.floats) {
+      document_.reader().fail(*normalized,
+                              "expected false here: the integers count from 0 on, and as shares "
+                              "of the greatest one they would be 0 or 1");
+    }
   }
   if (!is_right(shape.type, expected)) {
     document_.fail(
