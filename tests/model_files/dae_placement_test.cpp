@@ -173,6 +173,22 @@ TEST(DaeUnit, OfZeroOrLessOrNoNumberIsRefused) {
   }
 }
 
+TEST(DaeUnit, OfANameAloneIsAMeterWithAWarning) {
+  DaeWriter dae;
+  dae.asset = "<asset><unit name='inch'/></asset>";
+  const auto reading = test::read_dae(dae);
+  test::expect_same_body(reading.mesh, test::moved_body(0.1, test::same));
+  ASSERT_EQ(reading.report.warnings.size(), 1u);
+  EXPECT_NE(reading.report.warnings[0].find("the size of the unit 'inch'; it is taken as 1 m"),
+            std::string::npos)
+      << reading.report.warnings[0];
+  for (const char* const unit :
+       {"<unit/>", "<unit name='meter'/>", "<unit name='inch' meter='1'/>"}) {
+    dae.asset = "<asset>" + std::string(unit) + "</asset>";
+    EXPECT_TRUE(test::read_dae(dae).report.warnings.empty()) << unit;
+  }
+}
+
 TEST(DaeUnit, ThatDiffersWithinTheDocumentIsRefused) {
   DaeWriter dae;
   dae.nodes = "<node><asset><unit meter='0.01'/></asset><instance_geometry url='#body'/></node>";

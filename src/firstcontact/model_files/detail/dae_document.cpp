@@ -89,6 +89,7 @@ void DaeDocument::index() {
 
 void DaeDocument::read_asset() {
   if (const XmlElement* asset = xml_.child(root_, "asset")) {
+    warn_of_unit_without_size(*asset);
     unit_ = unit_of(*asset);
     if (const XmlElement* axis = xml_.child(*asset, "up_axis")) {
       up_axis_ = trimmed(xml_.content(*axis).view());
@@ -100,6 +101,15 @@ void DaeDocument::read_asset() {
   log_.set_unit(shortest(unit_) + " m (" + up_axis_ + ", axes as in the file)");
 }
 
+void DaeDocument::warn_of_unit_without_size(const XmlElement& asset) const {
+  const XmlElement* unit = xml_.child(asset, "unit");
+  const char* const name = unit == nullptr ? nullptr : unit->Attribute("name");
+  if (name != nullptr && unit->Attribute("meter") == nullptr && !holds({"meter", "metre"}, name)) {
+    log_.warn(xml_.error(*unit, "no 'meter' states the size of the unit " + detail::quoted(name) +
+                                    "; it is taken as 1 m"));
+  }
+}
+
 double DaeDocument::unit_of(const XmlElement& asset) const {
   const XmlElement* unit = xml_.child(asset, "unit");
   if (unit == nullptr || unit->Attribute("meter") == nullptr) {
@@ -109,6 +119,7 @@ double DaeDocument::unit_of(const XmlElement& asset) const {
 }
 
 void DaeDocument::check_asset(const XmlElement& asset) const {
+  warn_of_unit_without_size(asset);
   if (const XmlElement* unit = xml_.child(asset, "unit"); unit && unit_of(asset) != unit_) {
     refuse(*unit, "another unit than that of the document is not read; write one unit");
   }

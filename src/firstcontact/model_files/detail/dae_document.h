@@ -86,6 +86,7 @@ class DaeDocument {
   void leave_out_profile(const XmlElement& element) const;
   [[nodiscard]] const Named* named(std::string_view id, std::string_view kind) const;
   [[nodiscard]] std::string_view reference(const XmlElement& where, const char* attribute) const;
+  void warn_of_unit_without_size(const XmlElement& asset) const;
   [[nodiscard]] double unit_of(const XmlElement& asset) const;
 
   ReadingLog& log_;
