@@ -34,8 +34,8 @@ inline constexpr std::array<const char*, 3> kRobotSurfaceWords{"collision", "vis
                                                                "collision_or_visual"};
 
 struct UrdfOptions {
-  /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest, of the first root that
-  /// has NAME; then of the folders above the file.
+  /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest of the first that has it.
+  /// Behind them come the package NAME that holds the URDF, and all folders above.
   std::vector<std::filesystem::path> package_roots = {};
   LoadShapes shapes = LoadShapes::collision;
   RobotSurface surface = RobotSurface::collision;  ///< Becomes the collision geometry of links.

@@ -1,8 +1,10 @@
 #include <firstcontact/robot_files/detail/mesh_uri.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace firstcontact::detail {
@@ -11,16 +13,20 @@ namespace {
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
 
-/// The roots, then the folders above the file.
-std::vector<std::filesystem::path> search_path(const std::filesystem::path& urdf,
+/// The roots, then the folders of packages of this name that hold the file, then all above it.
+std::vector<std::filesystem::path> search_path(const std::string& package,
+                                               const std::filesystem::path& urdf,
                                                std::span<const std::filesystem::path> roots) {
   std::vector<std::filesystem::path> folders(roots.begin(), roots.end());
+  std::vector<std::filesystem::path> above;
   std::error_code ignored;
   std::filesystem::path folder = std::filesystem::absolute(urdf, ignored).parent_path();
   while (folder.has_relative_path()) {
+    const bool is_package = folder.filename() == package;
     folder = folder.parent_path();
-    folders.push_back(folder);
+    (is_package ? folders : above).push_back(folder);
   }
+  folders.insert(folders.end(), above.begin(), above.end());
   return folders;
 }
 
@@ -38,7 +44,7 @@ std::filesystem::path resolve_mesh(const std::string& uri, const std::filesystem
                                    std::span<const std::filesystem::path> roots) {
   const std::string_view text = uri;
   if (text.starts_with(kFile)) {
-    return text.substr(kFile.size());
+    return urdf.parent_path() / text.substr(kFile.size());  // What is absolute replaces the folder.
   }
   if (!text.starts_with(kPackage)) {
     if (text.find("://") != std::string_view::npos) {
@@ -51,11 +57,19 @@ std::filesystem::path resolve_mesh(const std::string& uri, const std::filesystem
   if (package.empty() || package.size() == rest.size()) {
     throw std::invalid_argument("expected package://NAME/path, got '" + uri + "'");
   }
-  for (const std::filesystem::path& root : search_path(urdf, roots)) {
+  std::optional<std::filesystem::path> expected;  // In the first folder of this name.
+  for (const std::filesystem::path& root : search_path(package, urdf, roots)) {
+    std::filesystem::path path = root / std::filesystem::path(rest);
     std::error_code ignored;
-    if (std::filesystem::is_directory(root / package, ignored)) {
-      return root / std::filesystem::path(rest);
+    if (std::filesystem::is_regular_file(path, ignored)) {
+      return path;
     }
+    if (!expected && std::filesystem::is_directory(root / package, ignored)) {
+      expected = std::move(path);
+    }
+  }
+  if (expected) {
+    return *std::move(expected);
   }
   throw std::invalid_argument("no package root holds a folder '" + package +
                               "' (roots: " + listed(roots) +
