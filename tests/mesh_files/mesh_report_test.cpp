@@ -54,13 +54,14 @@ TEST(ObjReport, CountsPolygonsAndNamesWhatIsLeftOut) {
   const auto [mesh, report] =
       read(detail::parse_obj,
            "mtllib a.mtl\nv 0 0 0\nv 2 1 0\nv 0 4 0\nv 1 1 0\nv 9 9 9\nvn 0 0 1\n"
-           "vn 0 0 1\nusemtl red\nf 1//1 2//1 3//1 4//1\nf 1 2 5\nf 1 2 5 3\n");
+           "vn 0 0 1\nusemtl red\n5 3 0\nf 1//1 2//1 3//1 4//1\nf 1 2 5\nf 1 2 5 3\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{1, 3, 0}, {1, 2, 3}, {0, 1, 4}, {0, 1, 4}, {0, 4, 2}}));
   EXPECT_EQ(content(report, "polygons of more than three corners"), 2u);
   EXPECT_EQ(content(report, "concave polygons"), 1u);
   EXPECT_EQ(left_out(report, "vn"), 2u);
   EXPECT_EQ(left_out(report, "usemtl"), 1u);
   EXPECT_EQ(left_out(report, "mtllib"), 1u);
+  EXPECT_EQ(left_out(report, "lines of whole numbers"), 1u);
 }
 
 TEST(ObjReport, NamesTheGreatestDeviationOfPolygonsThatAreNotPlanar) {

@@ -24,7 +24,7 @@ struct LeftOutStatement {
 };
 
 // Statements that change no geometry. Anything else unknown is refused, as it may be a surface.
-constexpr std::array<LeftOutStatement, 19> kLeftOut = {{{"vn", "normals"},
+constexpr std::array<LeftOutStatement, 20> kLeftOut = {{{"vn", "normals"},
                                                         {"vt", "texture coordinates"},
                                                         {"vp", "parameters of curved surfaces"},
                                                         {"g", "names of groups"},
@@ -42,7 +42,11 @@ constexpr std::array<LeftOutStatement, 19> kLeftOut = {{{"vn", "normals"},
                                                         {"bevel", "looks"},
                                                         {"lod", "looks"},
                                                         {"ctech", "drawing of curved surfaces"},
-                                                        {"stech", "drawing of curved surfaces"}}};
+                                                        {"stech", "drawing of curved surfaces"},
+                                                        {"lines of whole numbers", "counts"}}};
+
+/// Of lines of counts: the last of the table, whose name no statement can have.
+constexpr std::size_t kCounts = kLeftOut.size() - 1;
 
 /// How often each was left out; by its place in the table.
 using LeftOutCounts = std::array<std::size_t, kLeftOut.size()>;
@@ -151,7 +155,9 @@ void read_statement(TextCursor& text, MeshBuilder& mesh, LeftOutCounts& left_out
         [&](const LeftOutStatement& statement) { return statement.keyword == keyword; });
     if (known != kLeftOut.end()) {
       ++left_out[static_cast<std::size_t>(known - kLeftOut.begin())];
-    } else if (!is_counts(keyword, text)) {
+    } else if (is_counts(keyword, text)) {
+      ++left_out[kCounts];
+    } else {
       text.fail("expected an OBJ statement (v, vn, vt, f, l, p, g, o, s, usemtl ...), got " +
                 detail::quoted(keyword));
     }
