@@ -112,6 +112,13 @@ TEST(TrajectoryTable, KnowsNamesThatProgramsWrite) {
   }
 }
 
+TEST(TrajectoryTable, HasUnitsOfJointsThatTurnAndThatSlide) {
+  const Trajectory trajectory = parse_table(
+      "time,rail/x [m],rail/y (m),rail/theta [rad],turn [rad],lift [m],weld "
+      "[rad]\n0,1,2,3,1,0,0\n");
+  EXPECT_EQ(trajectory.points.at(0).positions, (std::vector<double>{1, 2, 3, 1, 0}));
+}
+
 TEST(TrajectoryTable, IsReadAsDataFramesAndNumericArraysAreWritten) {
   expect_the_motion(parse_table(",time,turn,lift\n0,0.0,0.1,-0.002\n1,1.5,1.0,0.5\n"), "an index");
   expect_the_motion(
@@ -179,8 +186,26 @@ TEST(MalformedTable, SaysTheMend) {
        "t.csv:1: column \"time [ms]\": expected seconds, got the unit \"ms\"; convert the numbers, "
        "and the name"},
       {"time,turn [deg]\n0,0\n",
-       "t.csv:1: column \"turn [deg]\": expected rad or m, got the unit \"deg\"; convert the "
-       "numbers, and the name"},
+       "t.csv:1: column \"turn [deg]\": expected positions in rad, as the joint turns; got the "
+       "unit \"deg\"; convert the numbers, and the name"},
+      {"time,turn [rad/s]\n0,0\n",
+       "t.csv:1: column \"turn [rad/s]\": expected positions in rad, as the joint turns; got the "
+       "unit \"rad/s\"; name velocities turn.velocity"},
+      {"time,lift (m/s)\n0,0\n",
+       "t.csv:1: column \"lift (m/s)\": expected positions in m, as it slides; got the unit "
+       "\"m/s\"; name velocities lift.velocity"},
+      {"time,turn [m]\n0,0\n",
+       "t.csv:1: column \"turn [m]\": expected positions in rad, as the joint turns; got the unit "
+       "\"m\"; convert the numbers, and the name"},
+      {"time,lift [rad]\n0,0\n",
+       "t.csv:1: column \"lift [rad]\": expected positions in m, as it slides; got the unit "
+       "\"rad\"; convert the numbers, and the name"},
+      {"time,rail/theta [m]\n0,0\n",
+       "t.csv:1: column \"rail/theta [m]\": expected positions in rad, as the joint turns; got the "
+       "unit \"m\"; convert the numbers, and the name"},
+      {"time,rail/y [rad]\n0,0\n",
+       "t.csv:1: column \"rail/y [rad]\": expected positions in m, as it slides; got the unit "
+       "\"rad\"; convert the numbers, and the name"},
       {"%time,field.header.seq,field.name0,field.position0\n1,2,turn,4\n",
        "t.csv:1: expected times in seconds and columns named after joints, got what rostopic echo "
        "-p writes; write a header of \"time\" and the joints, and divide the times by 1e9"},

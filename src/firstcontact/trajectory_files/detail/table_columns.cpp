@@ -103,15 +103,36 @@ std::optional<Meaning> meaning_by_ending(const RobotModel& robot, std::string_vi
   return std::nullopt;
 }
 
-void refuse_unit(std::string_view column, std::string_view unit, bool is_time) {
-  constexpr std::array<std::string_view, 5> kKnown = {"s", "sec", "rad", "m", "rad/s"};
-  const bool known =
-      is_time ? unit == "s" || unit == "sec" || unit.empty()
-              : unit.empty() || std::find(kKnown.begin() + 2, kKnown.end(), unit) != kKnown.end();
-  if (!known) {
-    refuse(column, std::string("expected ") + (is_time ? "seconds" : "rad or m") +
-                       ", got the unit " + in_quotes(unit) + "; convert the numbers, and the name");
+void require_seconds(std::string_view column, std::string_view unit) {
+  if (!unit.empty() && unit != "s" && unit != "sec") {
+    refuse(column, "expected seconds, got the unit " + in_quotes(unit) +
+                       "; convert the numbers, and the name");
   }
+}
+
+/// Whether a coordinate is an angle [rad], or else a length [m].
+bool is_angle(const RobotModel& robot, const JointCoordinate& coordinate) {
+  const JointType type = robot.joints()[coordinate.joint].type;
+  return type == JointType::planar ? coordinate.index == 2 : type != JointType::prismatic;
+}
+
+/// Positions of a joint that turns are in rad, of one that slides in m.
+void require_unit_of_position(std::string_view column, std::string_view name, std::string_view unit,
+                              const RobotModel& robot) {
+  const std::optional<JointCoordinate> coordinate = known_coordinate(robot, name);
+  if (!coordinate) {
+    return;  // It is fixed: its numbers move nothing.
+  }
+  const bool turns = is_angle(robot, *coordinate);
+  if (unit == (turns ? "rad" : "m")) {
+    return;
+  }
+  const bool is_rate = unit == "rad/s" || unit == "m/s";
+  refuse(column, std::string("expected positions in ") +
+                     (turns ? "rad, as the joint turns" : "m, as it slides") + "; got the unit " +
+                     in_quotes(unit) + "; " +
+                     (is_rate ? "name velocities " + std::string(name) + ".velocity"
+                              : "convert the numbers, and the name"));
 }
 
 Meaning meaning_of(std::string_view column, const RobotModel& robot) {
@@ -123,11 +144,11 @@ Meaning meaning_of(std::string_view column, const RobotModel& robot) {
   }
   const auto [name, unit] = split_unit(column);
   if (is_time_word(name)) {
-    refuse_unit(column, unit, true);
+    require_seconds(column, unit);
     return {Kind::time, nullptr, {}};
   }
   if (!unit.empty() && is_joint(robot, name)) {
-    refuse_unit(column, unit, false);
+    require_unit_of_position(column, name, unit, robot);
     return {.joint = std::string(name)};
   }
   if (const auto meaning = meaning_by_ending(robot, column)) {

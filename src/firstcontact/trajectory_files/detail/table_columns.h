@@ -42,9 +42,10 @@ struct TableColumns {
 
 /// Finds the meaning of columns by their names.
 ///
-/// They are the time; positions by the joint's name, which may have its unit or ".position" after
-/// it; NAME.velocity, NAME.acceleration, NAME.effort, also with '/' in place of the point and then
-/// with a topic before the joint; an unnamed first column, which counts the rows.
+/// They are the time; positions by the joint's name, which may have its unit ("rad" where it turns,
+/// "m" where it slides) or ".position" after it; NAME.velocity, NAME.acceleration, NAME.effort,
+/// also with '/' in place of the point and then with a topic before the joint; an unnamed first
+/// column, which counts the rows.
 ///
 /// @throws std::invalid_argument  names the column, and what was expected in its place
 [[nodiscard]] TableColumns table_columns(const std::vector<std::string>& names,
