@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/text/read_double.h>
+
 namespace firstcontact::app {
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
@@ -13,7 +15,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::optiona
   const auto take = [&number, name, range](const std::string& text) {
     double value = 0.0;
     const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const auto [rest, error] = detail::read_double(text.data(), end, value);
     const bool in_range = range == Range::positive ? value > 0.0 : value >= 0.0;
     if (error != std::errc() || rest != end || !std::isfinite(value) || !in_range) {
       throw CLI::ValidationError(name, fmt::format("expected a number {} 0, got \"{}\"",

@@ -350,6 +350,7 @@ TEST(UrdfOddities, LimitsOfInfinityAreNone) {
   EXPECT_FALSE(endless.lower || endless.upper || endless.velocity || endless.effort);
   EXPECT_EQ(limits("effort='1' velocity='2'").lower, 0.0);
   EXPECT_EQ(limits("upper='+3'").upper, 3.0);
+  EXPECT_EQ(limits("lower='-1e-400' upper='1'").lower, 0.0);  // It is small, not without end.
 }
 
 /// Only what forces move needs the mass.

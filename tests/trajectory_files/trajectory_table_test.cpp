@@ -139,6 +139,16 @@ TEST(TrajectoryTable, LeavesOutEffortsWithAWarning) {
       (std::vector<std::string>{"t.csv: efforts are left out: turn.effort, /arm/lift/effort"}));
 }
 
+// As JSON reads them. What is too large for a double stays an error.
+TEST(TrajectoryTable, TakesNumbersTooSmallForADoubleAsZeros) {
+  for (const std::string small : {"1e-400", "-1e-400", "+1,5e-5000", "0,0001e-330"}) {
+    expect_the_motion(parse_table("time;turn;lift\n" + small + ";0,1;-2e-3\n1,5;1;0,5\n"), small);
+  }
+  const Trajectory trajectory = parse_table("time,turn,lift\n0,-1e-400,4.9e-324\n");
+  EXPECT_EQ(trajectory.points[0].positions, (std::vector<double>{0.0, 4.9e-324}));
+  EXPECT_NE(table_error("time,turn\n0,1e400\n").find("expected a number"), std::string::npos);
+}
+
 TEST(TrajectoryTable, HasVelocitiesByBothEndings) {
   for (const std::string header : {"time,turn,turn.velocity", "time,turn,/states/turn/velocity"}) {
     const Trajectory trajectory = parse_table(header + "\n0,0,1\n1,2,3\n");

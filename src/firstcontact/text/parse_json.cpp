@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/utf8.h>
 #include <firstcontact/text/write_json.h>
 
@@ -326,38 +326,12 @@ class JsonParser {
     const std::string_view digits = rest_.substr(0, length);
     rest_.remove_prefix(length);
     double value = 0.0;
-    const auto error = std::from_chars(digits.data(), digits.data() + length, value).ec;
+    const auto error = read_double(digits.data(), digits.data() + length, value).ec;
     if (error == std::errc::result_out_of_range) {
-      return beyond_double(digits);
-    }
-    return value;
-  }
-
-  /// A number too small for a double is 0; one too large is an error. Either is so far from 1
-  /// that the decimal place of its first digit decides.
-  [[nodiscard]] double beyond_double(std::string_view digits) const {
-    const std::size_t mantissa = std::min(digits.find_first_of("eE"), digits.size());
-    const std::size_t point = std::min(digits.substr(0, mantissa).find('.'), mantissa);
-    const std::size_t first = digits.find_first_of("123456789");
-    const double place = static_cast<double>(point) - static_cast<double>(first);
-    if (exponent(digits.substr(mantissa)) + place > 0.0) {
       fail("expected a number that fits a double (at most 1.8e308 in size), got " +
            in_quotes(digits));
     }
-    return digits.front() == '-' ? -0.0 : 0.0;
-  }
-
-  /// The number of "", "e5", "E+5", "e-5"; infinite where it fits no double.
-  static double exponent(std::string_view text) {
-    if (text.empty()) {
-      return 0.0;
-    }
-    text.remove_prefix(1);
-    const bool negative = text.front() == '-';
-    text.remove_prefix(is_digit(text.front()) ? 0 : 1);
-    double value = std::numeric_limits<double>::infinity();
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    return negative ? -value : value;
+    return value;
   }
 
   std::string_view rest_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <map>
@@ -21,6 +20,7 @@
 
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/utf8.h>
 #include <firstcontact/text/write_json.h>
 
@@ -36,7 +36,7 @@ std::optional<double> decimal(std::string_view text) {
     return std::nullopt;  // std::from_chars knows "nan" and "inf", too.
   }
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = read_double(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
     return std::nullopt;
   }

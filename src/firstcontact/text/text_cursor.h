@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_double.h>
 
 namespace firstcontact::detail {
 
@@ -106,11 +107,7 @@ class TextCursor {
     skip_blanks();
     const char* begin = skip_plus();
     double value = 0.0;
-    auto [stop, error] = std::from_chars(begin, end_, value);
-    if (error == std::errc::result_out_of_range) {
-      value = beyond_double(begin);
-      error = {};
-    }
+    const auto [stop, error] = read_double(begin, end_, value);
     if (error != std::errc() || !is_delimiter(stop) || !std::isfinite(value)) {
       fail_at_word(what);
     }
@@ -188,9 +185,6 @@ class TextCursor {
     const bool plus = end_ - next_ > 1 && *next_ == '+' && next_[1] != '-';
     return plus ? next_ + 1 : next_;
   }
-
-  /// A number too small for double is 0; one too large is infinite.
-  [[nodiscard]] double beyond_double(const char* begin) const;
 
   const char* next_;
   const char* end_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_double.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -30,6 +31,14 @@ std::string shown(std::string_view word) {
   return "'" + text + (word.size() > kShownCharacters ? "...'" : "'");
 }
 
+std::from_chars_result read_number(const char* begin, const char* end, double& value) {
+  return read_double(begin, end, value);
+}
+
+std::from_chars_result read_number(const char* begin, const char* end, std::size_t& value) {
+  return std::from_chars(begin, end, value);
+}
+
 /// Whether all of a word is a number.
 template <class T>
 bool parse(std::string_view word, T& value) {
@@ -40,7 +49,7 @@ bool parse(std::string_view word, T& value) {
     }
   }
   const char* end = word.data() + word.size();
-  const auto [read_to, error] = std::from_chars(word.data(), end, value);
+  const auto [read_to, error] = read_number(word.data(), end, value);
   return error == std::errc() && read_to == end;
 }
 

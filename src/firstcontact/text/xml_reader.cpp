@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact::detail {
@@ -29,7 +30,7 @@ std::optional<double> parse_number(std::string_view word) {
     word.remove_prefix(1);
   }
   double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = read_double(word.data(), word.data() + word.size(), value);
   const bool complete = error == std::errc() && end == word.data() + word.size();
   return complete && std::abs(value) <= kGreatest ? std::optional(value) : std::nullopt;
 }

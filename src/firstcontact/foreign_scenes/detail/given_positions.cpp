@@ -1,7 +1,6 @@
 #include <firstcontact/foreign_scenes/detail/given_positions.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/text/brief_list.h>
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/write_json.h>
 #include <firstcontact/trajectory_files/detail/fixed_joints.h>
 
@@ -33,7 +33,7 @@ JointPositions said_by(const std::string& text, const SceneRobot& robot) {
   }
   double position = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, position);
+  const auto [stop, error] = read_double(text.data() + sign + 1, end, position);
   if (error != std::errc() || stop != end || !std::isfinite(position)) {
     refuse("expected NAME=POSITION with a finite number, such as " + name + "=0.1, got " +
            in_quotes(text));

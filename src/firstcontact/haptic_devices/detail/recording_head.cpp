@@ -11,6 +11,7 @@
 
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/text_cursor.h>
 #include <firstcontact/text/write_json.h>
 
@@ -215,7 +216,7 @@ std::string_view trimmed(std::string_view text) {
 double number_or_nan(std::string_view text, bool infinite) {
   double number = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  const auto [stop, error] = read_double(text.data(), end, number);
   const bool read = error == std::errc() && stop == end && (infinite || std::isfinite(number));
   return read ? number : std::numeric_limits<double>::quiet_NaN();
 }

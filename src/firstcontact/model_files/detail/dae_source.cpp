@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact::detail {
@@ -87,12 +87,9 @@ std::optional<double> parse_number(std::string_view word) {
   }
   const char* const end = word.data() + word.size();
   double value = 0.0;
-  auto [stop, error] = std::from_chars(word.data(), end, value);
+  auto [stop, error] = read_double(word.data(), end, value);
   if (error == std::errc::result_out_of_range) {
-    long double wide =
-        0.0L;  // Its range tells what is too small, and so 0, from what is too large.
-    error = std::from_chars(word.data(), end, wide).ec;
-    value = error == std::errc() ? static_cast<double>(wide) : HUGE_VAL;
+    value = HUGE_VAL;
     error = {};
   }
   if (error == std::errc() && stop != end && *stop == '#') {

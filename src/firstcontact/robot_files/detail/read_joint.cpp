@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_double.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact::detail {
@@ -153,7 +153,7 @@ class JointReader {
     const char* end = word.data() + word.size();
     double value = 0.0;
     const auto [stop, error] =
-        std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), end, value);
+        read_double(word.data() + (word.starts_with('+') ? 1 : 0), end, value);
     const bool is_endless = error == std::errc::result_out_of_range || std::abs(value) > kEndless;
     if (stop == end && is_endless) {
       context_.log.leave_out("'" + std::string(attribute) + "' of <limit>", "so great as none");

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
+
+#include <firstcontact/text/read_double.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -122,7 +123,7 @@ std::optional<double> TableNumbers::read(std::string_view field) {
   }
   double number = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  const auto [stop, error] = read_double(text.data(), end, number);
   if (error != std::errc() || stop != end || !std::isfinite(number)) {
     return std::nullopt;
   }
