@@ -154,6 +154,45 @@ TEST(MalformedPlanningScene, IsNamedByLineAndPlace) {
       "\"b\" and \"a\" as for them swapped");
 }
 
+// A key that nothing reads would be left out without notice.
+TEST(MalformedPlanningScene, HasNoKeysThatMessagesLack) {
+  expect_message("robot_state: {joint_sate: {name: [turn], position: [1]}}\nworld: {}",
+                 "s.yaml:1: robot_state.joint_sate: unknown key; did you mean \"joint_state\"?");
+  expect_message("robot_state: {joint_state: {names: [turn], position: [1]}}\nworld: {}",
+                 "s.yaml:1: robot_state.joint_state.names: unknown key; did you mean \"name\"?");
+  expect_message(
+      "robot_state: {multi_dof_joint_state: {joint_name: [w], transforms: [{}]}}\nworld: {}",
+      "s.yaml:1: robot_state.multi_dof_joint_state.joint_name: unknown key; did you mean "
+      "\"joint_names\"?");
+  expect_message(object("header: {frame: hook}, primitives: [{type: sphere, dimensions: [1]}]"),
+                 "s.yaml:3: world.collision_objects[0].header.frame: unknown key; did you mean "
+                 "\"frame_id\"?");
+}
+
+/// A robot whose base has this pose.
+std::string moved_base(const std::string& transform) {
+  return "robot_state: {multi_dof_joint_state: {joint_names: [w], twist: [], wrench: [], "
+         "transforms: [" +
+         transform + "]}}\nworld: {}";
+}
+
+// Objects may be placed by the frame of the root link, which has to be the planning frame.
+TEST(PlanningScene, HasARobotWhoseBaseIsThePlanningFrame) {
+  const std::string error =
+      "s.yaml:1: robot_state.multi_dof_joint_state.transforms[0]: expected a robot whose base is "
+      "the planning frame, but it is moved; move the objects in its place";
+  expect_message(moved_base("{translation: [100, 0, 0], rotation: [0, 0, 0, 1]}"), error);
+  expect_message(moved_base("{translation: [0, 0, 0], rotation: [0, 0, 1, 0]}"), error);
+  for (const std::string rotation : {"[0, 0, 0, 1]", "[0, 0, 0, -1]", "[0, 0, 0, 0]"}) {
+    EXPECT_TRUE(
+        parse(moved_base("{translation: [0, 0, 0], rotation: " + rotation + "}")).bodies.empty());
+  }
+  expect_message(
+      "robot_state: {multi_dof_joint_state: {joint_names: [], transforms: [{}]}}\nworld: {}",
+      "s.yaml:1: robot_state.multi_dof_joint_state.transforms: expected one joint, between the "
+      "world and the robot, with one transform");
+}
+
 TEST(PlanningScene, HasWhatLinksHoldAndPadding) {
   const PlanningScene scene = parse(R"(
 link_padding: [{link_name: hook, padding: 0.01}, {link_name: cart, padding: 0}]
@@ -334,6 +373,14 @@ TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {
   EXPECT_EQ(message("trajectory_constraints: {constraints: [{name: '', joint_constraints: []}]}\n" +
                     goal),
             "accepted");
+  EXPECT_EQ(message("path_constraint: {joint_constraints: [{joint_name: turn}]}\n" + goal),
+            "r.yaml:1: path_constraint: unknown key; did you mean \"path_constraints\"?");
+  EXPECT_EQ(message("start_state: {joint_sate: {name: [turn], position: [1]}}\n" + goal),
+            "r.yaml:1: start_state.joint_sate: unknown key; did you mean \"joint_state\"?");
+  EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}], "
+                    "position_constraint: [{}]}]"),
+            "r.yaml:1: goal_constraints[0].position_constraint: unknown key; did you mean "
+            "\"position_constraints\"?");
   EXPECT_EQ(message("start_state: {joint_state: {name: [trun], position: [1]}}"),
             "r.yaml:1: start_state.joint_state.name[0]: expected a joint of the robot, got "
             "\"trun\"; did you mean \"turn\"?");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include <firstcontact/foreign_scenes/detail/pose_constraints.h>
+#include <firstcontact/foreign_scenes/detail/robot_state.h>
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/robot/coordinate_path.h>
@@ -39,24 +41,27 @@ void refuse_attached(const JsonValue& state, const JsonReader& read) {
 /// The pose of the joint between the world and the root link.
 detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
                               const JsonReader& read) {
-  const JsonValue* joints = find_filled(state, "multi_dof_joint_state");
-  const JsonValue* names = joints == nullptr ? nullptr : find_filled(*joints, "joint_names");
-  if (names == nullptr) {
+  const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
+  if (!joint) {
     return {};
   }
-  const JsonArray& list = read.array(*names, "an array of joint names");
-  const JsonValue& transforms = read.member(*joints, "transforms");
-  const JsonArray& poses = read.array(transforms, "an array of transforms");
-  if (list.size() != 1 || poses.size() != 1) {
-    read.fail(transforms,
-              "expected one joint, between the world and the robot, with one transform");
-  }
-  const std::string name = detail::name_of(list[0], "the name of a joint", read);
+  const std::string name = detail::name_of(joint->name, "the name of a joint", read);
   if (robot.find_joint(name)) {
-    read.fail(list[0], "expected the joint between the world and the robot, got its joint " +
-                           in_quotes(name));
+    read.fail(joint->name, "expected the joint between the world and the robot, got its joint " +
+                               in_quotes(name));
   }
-  return detail::read_message_pose(poses[0], read);
+  return joint->base;
+}
+
+/// Refuses keys that a request doesn't have: what they ask would be left out without notice.
+void require_request_keys(const JsonValue& request, const JsonReader& read) {
+  (void)read.object(
+      request, {{"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
+                 "trajectory_constraints", "reference_trajectories", "pipeline_id", "planner_id",
+                 "group_name", "num_planning_attempts", "allowed_planning_time",
+                 "max_velocity_scaling_factor", "max_acceleration_scaling_factor",
+                 "cartesian_speed_end_effector_link", "cartesian_speed_limited_link",
+                 "max_cartesian_speed"}});
 }
 
 const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
@@ -65,6 +70,8 @@ const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
   if (list.size() != 1) {
     read.fail(goals, "expected one goal, got " + std::to_string(list.size()));
   }
+  (void)read.object(list.front(), {{"name", "joint_constraints", "position_constraints",
+                                    "orientation_constraints", "visibility_constraints"}});
   return list.front();
 }
 
@@ -131,9 +138,11 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
     read.fail_expected("a request, an object with \"start_state\" and \"goal_constraints\"",
                        request);
   }
+  require_request_keys(request, read);
   PlanningRequest result;
   std::vector<std::string> fixed;
   if (const JsonValue* state = find_filled(request, "start_state")) {
+    detail::require_state_keys(*state, read);
     refuse_attached(*state, read);
     if (const JsonValue* joints = find_filled(*state, "joint_state")) {
       detail::MessageState start = detail::read_joint_state(*joints, robot, read);

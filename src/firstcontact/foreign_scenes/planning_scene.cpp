@@ -1,7 +1,10 @@
 #include <firstcontact/foreign_scenes/planning_scene.h>
 
+#include <optional>
+
 #include <firstcontact/foreign_scenes/detail/allowed_collisions.h>
 #include <firstcontact/foreign_scenes/detail/planning_objects.h>
+#include <firstcontact/foreign_scenes/detail/robot_state.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_file.h>
@@ -83,8 +86,21 @@ void read_world(const JsonValue& world, detail::PlanningObjects& objects, Planni
   }
 }
 
+/// The planning frame is that of the root link here: objects may be placed by either.
+void refuse_moved_base(const JsonValue& state, const JsonReader& read) {
+  const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
+  if (joint &&
+      !(joint->base.pose.position.isZero(0.0) && joint->base.pose.rotation.vec().isZero(0.0))) {
+    read.fail(joint->transform,
+              "expected a robot whose base is the planning frame, but it is moved; move the "
+              "objects in its place");
+  }
+}
+
 void read_robot_state(const JsonValue& state, detail::PlanningObjects& objects,
                       PlanningScene& result, const JsonReader& read) {
+  detail::require_state_keys(state, read);
+  refuse_moved_base(state, read);
   if (const JsonValue* attached = find_filled(state, "attached_collision_objects")) {
     for (const JsonValue& object : read.array(*attached, "an array of attached objects")) {
       objects.add_attached(object, result);

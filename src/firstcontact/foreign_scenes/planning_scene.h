@@ -66,7 +66,8 @@ struct PlanningRequest {
 /// `frame`) or those of fixed_frame_transforms. Lists [x, y, z] and maps {x: , y: , z: } mean the
 /// same; a quaternion is x, y, z, w, and of zeros the identity, with a warning. Attached objects
 /// are in the frame of their link. Padding thickens a link by a ball. What would be left out
-/// without notice is an error: planes, octomaps, scales of links, objects in other frames.
+/// without notice is an error: planes, octomaps, scales of links, objects in other frames, a robot
+/// whose base is moved, unknown keys.
 ///
 /// @param frame  the name of the robot's root link: it is in the planning frame
 /// @throws ParseError

@@ -18,9 +18,13 @@ std::string without_slash(const std::string& name) {
 }
 
 /// The frame of a message with a header; may be null.
-const JsonValue* frame_name(const JsonValue& message) {
+const JsonValue* frame_name(const JsonValue& message, const JsonReader& read) {
   const JsonValue* header = find_filled(message, "header");
-  return header == nullptr ? nullptr : find_filled(*header, "frame_id");
+  if (header == nullptr) {
+    return nullptr;
+  }
+  (void)read.object(*header, {{"seq", "stamp", "frame_id"}});
+  return find_filled(*header, "frame_id");
 }
 
 }  // namespace
@@ -59,7 +63,7 @@ void PlanningObjects::add_attached(const JsonValue& value, PlanningScene& scene)
       .link = name_of(read_.member(value, "link_name"), "the name of a link", read_),
       .touch_links = {},
       .parts = {}};
-  const JsonValue* frame = frame_name(object);
+  const JsonValue* frame = frame_name(object, read_);
   const auto* name = frame == nullptr ? nullptr : std::get_if<std::string>(&frame->value);
   if (name == nullptr || without_slash(*name) != attached.link) {
     read_.fail(frame == nullptr ? object : *frame,
@@ -104,7 +108,7 @@ std::vector<Body> PlanningObjects::parts_of(const JsonValue& object, const std::
 }
 
 Pose PlanningObjects::frame_of(const JsonValue& message) const {
-  const JsonValue* frame = frame_name(message);
+  const JsonValue* frame = frame_name(message, read_);
   const auto* name = frame == nullptr ? nullptr : std::get_if<std::string>(&frame->value);
   if (name == nullptr) {
     return {};

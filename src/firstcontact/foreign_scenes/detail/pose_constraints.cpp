@@ -19,6 +19,9 @@ constexpr std::size_t kPrimitives = 4;  // 1 box, 2 sphere, 3 cylinder, 4 cone.
 Pose frame_of(const JsonValue& constraint, const RobotModel& robot, const Pose& X_WR,
               const JsonReader& read) {
   const JsonValue* header = find_filled(constraint, "header");
+  if (header != nullptr) {
+    (void)read.object(*header, {{"seq", "stamp", "frame_id"}});
+  }
   const JsonValue* frame = header == nullptr ? nullptr : find_filled(*header, "frame_id");
   const std::string name = frame == nullptr ? "" : read.string(*frame, "the name of a frame");
   if (name.empty() || name == "world") {

@@ -150,6 +150,7 @@ void add_position(const JsonValue& joint, const JsonValue& position, const Robot
 
 std::vector<NamedPosition> named_positions(const JsonValue& value, const JsonReader& read) {
   std::vector<NamedPosition> result;
+  (void)read.object(value, {{"header", "name", "position", "velocity", "effort"}});
   const JsonValue* names = find_filled(value, "name");
   if (names == nullptr) {
     return result;
@@ -170,7 +171,6 @@ std::vector<NamedPosition> named_positions(const JsonValue& value, const JsonRea
 MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
                               const JsonReader& read) {
   MessageState state;
-  (void)read.object(value, {{"header", "name", "position", "velocity", "effort"}});
   for (const NamedPosition& joint : named_positions(value, read)) {
     add_position(joint.name, joint.position, robot, read, state);
   }

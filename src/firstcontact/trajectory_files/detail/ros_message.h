@@ -61,6 +61,7 @@ struct NamedPosition {
 };
 
 /// sensor_msgs/JointState: its `name` and `position`, which are as many; none where it names none.
+/// Other keys than it has are refused.
 [[nodiscard]] std::vector<NamedPosition> named_positions(const JsonValue& value,
                                                          const JsonReader& read);
 
@@ -70,7 +71,7 @@ struct NamedPosition {
 void add_position(const JsonValue& joint, const JsonValue& position, const RobotModel& robot,
                   const JsonReader& read, MessageState& state);
 
-/// sensor_msgs/JointState of the robot, without other keys than it has.
+/// sensor_msgs/JointState of the robot, as named_positions() reads it.
 [[nodiscard]] MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
                                             const JsonReader& read);
 
