@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -22,42 +23,87 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
-/// Where a symbolic link leads, so that the link stays one; it need not lead to a file yet.
+constexpr int kMostLinks = 40;  // As the kernel.
+
+/// Where a symbolic link leads.
+std::filesystem::path next_of(const std::filesystem::path& link) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::read_symlink(link, error);
+  return error ? link : link.parent_path() / target;  // An absolute target replaces the folder.
+}
+
+/// Where a symbolic link leads in the end, so that the link stays one; it need not lead to a file
+/// yet.
 std::filesystem::path resolved(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // As the kernel.
   std::error_code error;
   for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, error); ++k) {
-    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
-    if (error) {
-      break;
-    }
-    path = path.parent_path() / target;  // An absolute target replaces the folder.
+    path = next_of(path);
   }
   return path;
 }
 
+/// The descriptor of this process that a path names, as /dev/stdout and /dev/fd/63 do; or -1.
+///
+/// Its links tell what it is open on. To open that a second time would write over what the
+/// descriptor writes, and a pipe may have no name.
+int own_descriptor(std::filesystem::path path) {
+  std::error_code error;
+  const std::filesystem::path own = std::filesystem::canonical("/proc/self/fd", error);
+  for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, error); ++k) {
+    const std::string name = path.filename().string();
+    int number = -1;
+    const auto [rest, failed] = std::from_chars(name.data(), name.data() + name.size(), number);
+    const bool is_number = failed == std::errc() && rest == name.data() + name.size();
+    if (is_number && !own.empty() && std::filesystem::canonical(path.parent_path(), error) == own) {
+      return number;
+    }
+    path = next_of(path);
+  }
+  return -1;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolved(target)) {
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
+  std::error_code error;
+  const auto status = std::filesystem::status(target, error);
+  if (const int own = own_descriptor(target); own >= 0) {
+    descriptor_ = ::fcntl(own, F_DUPFD_CLOEXEC, 0);
+  } else if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    begin_temporary();
+  }
+  if (descriptor_ < 0) {
+    fail("cannot write this file");
+  }
+}
+
+void AtomicFile::begin_temporary() {
+  target_ = resolved(target_);
   std::error_code error;
   if (std::filesystem::is_symlink(target_, error)) {
     errno = ELOOP;
     fail("cannot write this file");
   }
-  const auto status = std::filesystem::status(target_, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-  } else {
-    std::string name = target_.string() + ".XXXXXX";
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
-    temporary_ = descriptor_ < 0 ? "" : name;
+  struct stat replaced = {};
+  const bool replaces = ::stat(target_.c_str(), &replaced) == 0;
+  if (replaces && ((replaced.st_mode & S_IWUSR) == 0 || ::access(target_.c_str(), W_OK) != 0)) {
+    errno = EACCES;  // As of a write to it, which a new file in its place would get round.
+    fail("cannot write this file");
   }
+  std::string name = target_.string() + ".XXXXXX";
+  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) {
     fail("cannot write this file");
   }
-  if (!temporary_.empty()) {
-    ::fchmod(descriptor_, new_file_mode());
+  temporary_ = name;
+  if (replaces) {
+    // Only root may give files away; others keep what they write.
+    [[maybe_unused]] const int kept = ::fchown(descriptor_, replaced.st_uid, replaced.st_gid);
   }
+  constexpr mode_t kPermissions = 0777;
+  ::fchmod(descriptor_, replaces ? replaced.st_mode & kPermissions : new_file_mode());
 }
 
 AtomicFile::~AtomicFile() {

@@ -8,8 +8,9 @@
 
 namespace firstcontact::app {
 
-/// Writes to a temporary file beside the target, which takes the target's name on commit. A
-/// target that is no plain file, such as a pipe or /dev/null, is written directly.
+/// Writes to a temporary file beside the target, which takes the target's name on commit, and the
+/// permissions of a file that it replaces. A target that is no plain file, such as a pipe or
+/// /dev/null, is written directly; so is a descriptor of this process, such as /dev/stdout.
 ///
 /// @throws std::runtime_error, one line that names the file, where it cannot be written
 class AtomicFile {
@@ -26,6 +27,7 @@ class AtomicFile {
   void commit();
 
  private:
+  void begin_temporary();
   [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path target_;

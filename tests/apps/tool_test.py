@@ -1033,6 +1033,51 @@ class OutputFile(ToolTest):
         self.assertEqual(self.run_tool("check", "-o", "/dev/null", scene).returncode, 0)
         self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
 
+    def test_may_be_a_pipe_or_the_standard_output(self):
+        scene = self.file("s.json", scenes.FREE)
+        piped = self.run_tool("check", scene, "--json", "-o", "/dev/stdout")  # A pipe to this test.
+        self.assertEqual(piped.returncode, 0, piped.stderr)
+        first, second = piped.stdout.splitlines()
+        self.assertEqual(json.loads(first), json.loads(second))
+        reader, writer = os.pipe()
+        named = subprocess.run([TOOL, "check", scene, "-o", f"/dev/fd/{writer}"], pass_fds=[writer],
+                               cwd=self.folder, capture_output=True, check=False)
+        os.close(writer)
+        with os.fdopen(reader, encoding="utf-8") as pipe:
+            self.assertEqual(json.loads(pipe.read())["verdict"], "free")
+        self.assertEqual(named.returncode, 0, named.stderr)
+
+    def test_and_the_text_share_a_file(self):
+        """Standard output goes into a file that holds something already."""
+        scene = self.file("s.json", scenes.FREE)
+        with open(self.folder / "out.txt", "w", encoding="utf-8") as out:
+            out.write("before\n")
+            out.flush()
+            subprocess.run([TOOL, "check", scene, "--json", "-o", "/dev/stdout"], stdout=out,
+                           cwd=self.folder, check=True)
+        before, first, second = (self.folder / "out.txt").read_text().splitlines()
+        self.assertEqual(before, "before")
+        self.assertEqual(json.loads(first), json.loads(second))
+        self.assertEqual(self.names(), ["out.txt", "s.json"])
+
+    def test_keeps_the_permissions_of_what_it_replaces(self):
+        scene = self.file("s.json", scenes.FREE)
+        for mode in (0o600, 0o640, 0o755):
+            self.file("out.json", "old")
+            (self.folder / "out.json").chmod(mode)
+            self.assertEqual(self.run_tool("check", "-o", "out.json", scene).returncode, 0)
+            self.assertEqual(stat.S_IMODE((self.folder / "out.json").stat().st_mode), mode)
+            self.assertEqual(json.loads((self.folder / "out.json").read_text())["verdict"], "free")
+
+    def test_replaces_nothing_that_may_not_be_written(self):
+        scene = self.file("s.json", scenes.FREE)
+        self.file("out.json", "old")
+        (self.folder / "out.json").chmod(0o444)
+        self.assert_refused(self.run_tool("check", "-o", "out.json", scene),
+                            "out.json: cannot write this file: Permission denied")
+        self.assertEqual((self.folder / "out.json").read_text(), "old")
+        self.assertEqual(self.names(), ["out.json", "s.json"])
+
     def test_is_never_the_scene(self):
         scene = self.file("s.json", scenes.FREE)
         for option in ("-o", "--svg"):
