@@ -92,6 +92,14 @@ std::string limit_text(const Joint& joint) {
   return text;
 }
 
+/// Two blanks for each link above. Of long chains the number of links above stands in their place,
+/// as blanks would be most of the text.
+std::string indent(std::size_t depth) {
+  constexpr std::size_t kMost = 40;
+  return depth <= kMost ? std::string(2 * depth, ' ')
+                        : std::string(2 * kMost, ' ') + fmt::format("({}) ", depth);
+}
+
 void print_links(const RobotModel& robot,
                  const std::vector<std::vector<std::size_t>>& children_joints, std::size_t root) {
   struct Open {
@@ -109,8 +117,8 @@ void print_links(const RobotModel& robot,
       const Joint& joint = robot.joints()[*parent];
       how = fmt::format(" by {}: {}{}", joint.name, to_string(joint.type), limit_text(joint));
     }
-    say(visible(fmt::format("    {:{}}{}{}; {}; {}", "", 2 * at.depth, link.name, how,
-                            mass_text(link), collision_text(link))) +
+    say(visible(fmt::format("    {}{}{}; {}; {}", indent(at.depth), link.name, how, mass_text(link),
+                            collision_text(link))) +
         "\n");
     const std::vector<std::size_t>& joints = children_joints[at.link];
     for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {

@@ -51,7 +51,11 @@ std::string shown(std::string_view text, bool keep_lines) {
     const std::uint32_t code =
         length == 0 ? static_cast<std::uint8_t>(text[0]) : code_point(character);
     const bool is_kept = length > 0 && (!steers(code) || (keep_lines && code == '\n'));
-    result += is_kept ? std::string(character) : escape(code);
+    if (is_kept) {
+      result += character;
+    } else {
+      result += escape(code);
+    }
     text.remove_prefix(character.size());
   }
   return result;

@@ -1436,6 +1436,16 @@ class Info(ToolTest):
                      "link tip: is seen, but has no collision geometry"):
             self.assertIn(line, result.stdout)
 
+    def test_indents_long_chains_no_further(self):
+        links = "".join(f"<link name='l{k}'/>" for k in range(2000))
+        joints = "".join(f"<joint name='j{k}' type='fixed'><parent link='l{k}'/><child link='l{k + 1}'/></joint>"
+                         for k in range(1999))
+        result = self.run_tool("info", self.file("r.urdf", f"<robot name='r'>{links}{joints}</robot>"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for depth, start in ((40, 84 * " " + "l40 by"), (41, 84 * " " + "(41) l41 by"), (1999, 84 * " " + "(1999) l1999 by")):
+            self.assertIn(f"\n{start} j{depth - 1}: fixed;", result.stdout)
+        self.assertLess(len(result.stdout), 1000000)
+
     def test_says_whether_masses_are_given(self):
         for urdf, told in (
                 ("<robot name='r'><link name='a'/></robot>", "not given of any link"),
