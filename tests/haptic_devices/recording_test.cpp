@@ -155,6 +155,14 @@ TEST(Recording, NamesLineColumnAndMend) {
   EXPECT_EQ(refusal(pose_text("0,0,0,0,0,2,0,0,0\n")),
             "hand.csv:3: expected a quaternion qw, qx, qy, qz of length 1, got one of length 2; "
             "divide it by its length");
+  EXPECT_EQ(refusal(pose_text("0,0,1e6,0,1e6,1,0,0,0\n")),
+            "hand.csv:3: expected a position x, y, z of at most 1e6 m in length, got "
+            "1414213.562373095; give it in SI units");
+  EXPECT_EQ(
+      refusal("# firstcontact recording: 1\n# kind: rate\ntime_ns,sequence,vx,vy,vz,wx,wy,wz\n"
+              "0,0,0,0,0,1e6,1e6,0\n"),
+      "hand.csv:4: expected a rate wx, wy, wz of at most 1e6 rad/s in length, got "
+      "1414213.562373095; give it in SI units");
   EXPECT_EQ(refusal(pose_text("5,0,0,0,0,1,0,0,0\n4,1,0,0,0,1,0,0,0\n")),
             "hand.csv:4: time_ns 4 is before that of the line above, 5; sort the lines by time");
   EXPECT_EQ(refusal(pose_text("5,3,0,0,0,1,0,0,0\n6,2,0,0,0,1,0,0,0\n")),

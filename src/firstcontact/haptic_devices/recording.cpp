@@ -310,12 +310,27 @@ class RecordingParser {
     for (std::size_t place = 0; place < cells_.size(); ++place) {
       read_cell(place, sample);
     }
+    require_sense(sample);
+    check_order(sample);
+    recording_.samples.push_back(sample);
+  }
+
+  void require_sense(const DeviceState& sample) const {
+    require_length(sample.X_DH.position, "a position x, y, z", "m");
+    require_length(sample.linear_rate, "a rate vx, vy, vz", "m/s");
+    require_length(sample.angular_rate, "a rate wx, wy, wz", "rad/s");
     if (!detail::makes_sense(sample)) {
       fail("expected a quaternion qw, qx, qy, qz of length 1, got one of length " +
            detail::write_json(sample.X_DH.rotation.norm()) + "; divide it by its length");
     }
-    check_order(sample);
-    recording_.samples.push_back(sample);
+  }
+
+  /// Each of the three numbers may be within the bound, and all together beyond it.
+  void require_length(const Eigen::Vector3d& vector, const char* what, const char* unit) const {
+    if (!(vector.norm() <= detail::kMostOfSample)) {
+      fail(std::string("expected ") + what + " of at most 1e6 " + unit + " in length, got " +
+           detail::write_json(vector.norm()) + "; give it in SI units");
+    }
   }
 
   void check_order(const DeviceState& sample) const {
