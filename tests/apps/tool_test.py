@@ -488,14 +488,14 @@ $""")
 
     def test_refutes_what_was_edited(self):
         claims = self.check(self.TILTED)
-        free = {**claims, "verdict": "free", "t": 1, "time": 1, "pair": None}
+        free = {**claims, "verdict": "free", "t": 1, "t_upper": None, "time": 1, "pair": None}
         result = self.verify(free)
         self.assertEqual(result.returncode, 1, result)
         self.assertRegex(result.stdout, r'^result\.json: refuted\n  claim      free\n  problem    "floor" and "stone" are '
                          r"closer than the result claims\.\n  when       t = 0\.\d+\n  distance ")
-        later = {**claims, "t": claims["t"] + 1e-6, "time": claims["t"] + 1e-6}
+        later, earlier = ({**claims, "t": t, "t_upper": t, "time": t} for t in (claims["t"] + 1e-6, claims["t"] - 1e-6))
         self.assertIn(self.verify(later).returncode, (1, 3))
-        self.assertEqual(self.verify({**claims, "t": claims["t"] - 1e-6, "time": claims["t"] - 1e-6}).returncode, 1)
+        self.assertEqual(self.verify(earlier).returncode, 1)
 
     def test_refuses_what_contradicts_itself(self):
         claims = self.check(scenes.CONTACT)
@@ -504,6 +504,8 @@ $""")
         result = self.verify({**claims, "time": 0.5}, "--json")
         self.assertEqual((result.returncode, json.loads(result.stdout)["verdict"]), (2, "broken"))
         self.assert_refused(self.verify({**claims, "t": "soon"}), "result.json:1: t: expected a number, got \"soon\"")
+        self.assert_refused(self.verify({**claims, "t_upper": 0.9}), f"result.json:1: t_upper: expected {claims['t']}, as "
+                            "t, since the verdict is a contact, got 0.9; check the scene again")
 
     def test_refuses_a_scene_that_has_changed(self):
         claims = self.check(scenes.CONTACT)

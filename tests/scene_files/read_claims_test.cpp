@@ -195,5 +195,45 @@ TEST(ReadClaims, NameWhatIsWrong) {
   }
 }
 
+/// The first answer of a result is that of the scene, and the second one that of its first pair.
+TEST(ReadClaims, RefuseTimesThatContradictTheVerdict) {
+  const std::string text = claimed(kClaimedFall).text;
+  const auto number_after = [&](const std::string& key) {
+    const std::size_t begin = text.find(key) + key.size();
+    return text.substr(begin, text.find(',', begin) - begin);
+  };
+  const std::string t = number_after(R"("t":)");
+  const std::string upper = R"("t_upper":)" + t;
+  EXPECT_EQ(claims_said(changed_claims(upper, R"("t_upper":0.9)")),
+            "r.jsonl:12: t_upper: expected " + t +
+                ", as t, since the verdict is a contact, got 0.9; check the scene again");
+  EXPECT_EQ(claims_said(changed_claims(upper, R"("t_upper":null)")),
+            "r.jsonl:12: t_upper: expected " + t +
+                ", as t, since the verdict is a contact, got null; check the scene again");
+  EXPECT_EQ(claims_said(changed_claims(R"("verdict":"contact")", R"("verdict":"free")")),
+            "r.jsonl:12: t_upper: expected null, since the verdict is free, got " + t +
+                "; check the scene again");
+  std::string of_pair = text;
+  of_pair.replace(of_pair.find(upper, of_pair.find(R"("pairs":[)")), upper.size(),
+                  R"("t_upper":1)");
+  EXPECT_EQ(claims_said(of_pair),
+            "r.jsonl:12: pairs[0].t_upper: expected " + t +
+                ", as t, since the verdict is a contact, got 1; check the scene again");
+}
+
+TEST(ReadClaims, RefuseWhatIsUndecidedWithoutAReason) {
+  const std::string decided = R"("verdict":"contact","reason":null)";
+  EXPECT_EQ(
+      claims_said(changed_claims(decided, R"("verdict":"undecided","reason":null)")),
+      "r.jsonl:12: reason: expected why the search ended, since the verdict is undecided, got "
+      "null; check the scene again");
+  EXPECT_EQ(claims_said(changed_claims(decided, R"("verdict":"undecided","reason":"wrk")")),
+            "r.jsonl:12: reason: unknown word \"wrk\"; did you mean \"work\"?");
+  EXPECT_EQ(
+      read_claims(changed_claims(decided, R"("verdict":"undecided","reason":"work")"), "r.json")
+          .verdict,
+      Verdict::undecided);
+}
+
 }  // namespace
 }  // namespace firstcontact

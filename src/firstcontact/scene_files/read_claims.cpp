@@ -40,6 +40,7 @@ class ClaimsReader {
     }
     claims.verdict = verdict(root_);
     claims.t = reader_.number(reader_.member(root_, "t"));
+    require_end(root_, claims.verdict, claims.t);
     claims.time = reader_.number(reader_.member(root_, "time"));
     const JsonValue& pair = reader_.member(root_, "pair");
     if (!is_null(pair)) {
@@ -84,6 +85,33 @@ class ClaimsReader {
     return reader_.enumerator<Verdict>(reader_.member(object, "verdict"), kVerdictWords);
   }
 
+  /// How the proof ends is said twice: by the verdict, and by `t_upper` and `reason`.
+  void require_end(const JsonValue& answer, Verdict verdict, double t) const {
+    const JsonValue& upper = reader_.member(answer, "t_upper");
+    const bool is_later = !is_null(upper) && reader_.number(upper) >= t;
+    if (is_contact(verdict) && !(is_later && reader_.number(upper) == t)) {
+      refuse(upper, detail::write_json(t) + ", as t, since the verdict is a contact");
+    }
+    if (verdict == Verdict::free && !is_null(upper)) {
+      refuse(upper, "null, since the verdict is free");
+    }
+    if (verdict == Verdict::undecided && !is_null(upper) && !is_later) {
+      refuse(upper, "null or a time from t on");
+    }
+    const JsonValue& reason = reader_.member(answer, "reason");
+    const bool has_reason =
+        !is_null(reason) &&
+        reader_.enumerator<UndecidedReason>(reason, kUndecidedReasonWords) != UndecidedReason::none;
+    if (verdict == Verdict::undecided && !has_reason) {
+      refuse(reason, "why the search ended, since the verdict is undecided");
+    }
+  }
+
+  [[noreturn]] void refuse(const JsonValue& value, const std::string& expected) const {
+    reader_.fail(value, "expected " + expected + ", got " + detail::write_json(value) +
+                            "; check the scene again");
+  }
+
   [[nodiscard]] std::array<std::string, 2> names(const JsonValue& value) const {
     const detail::JsonArray& both = reader_.array(value, "two names");
     if (both.size() != 2) {
@@ -98,9 +126,13 @@ class ClaimsReader {
   }
 
   [[nodiscard]] PairClaim of_pair(const JsonValue& answer, const Scene& scene) const {
-    return {.pair = names(reader_.member(answer, "pair")),
-            .verdict = verdict(answer),
-            .t = reader_.number(reader_.member(answer, "t")),
+    const std::array<std::string, 2> pair = names(reader_.member(answer, "pair"));
+    const Verdict own = verdict(answer);
+    const double t = reader_.number(reader_.member(answer, "t"));
+    require_end(answer, own, t);
+    return {.pair = pair,
+            .verdict = own,
+            .t = t,
             .tolerance_used = tolerance(std::get<JsonObject>(answer.value), scene)};
   }
 
