@@ -205,7 +205,7 @@ class Check {
                   const ParseError& error, UndecidedReason reason = UndecidedReason::none) {
     status_ = ExitStatus::bad_input;
     progress_.say(fmt::format("firstcontact: {}", error.what()));
-    if (batch_) {
+    if (batch_ || line) {  // Standard input may have lines.
       write_json(write_error(id, file, line, error.what(), reason));
     }
   }
