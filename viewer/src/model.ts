@@ -31,6 +31,12 @@ export interface BodyGeometry {
   readonly to: readonly Vector3[] | null; ///< Where its vertices end, in the world, if it deforms.
 }
 
+/// How a body of a run goes.
+export interface Course {
+  readonly way: WayData;
+  readonly centre: Vector3; ///< Of mass, in the body: it goes on lines.
+}
+
 /// All that can touch: a body, or a link of a robot.
 export interface Body {
   readonly index: number;
@@ -43,6 +49,7 @@ export interface Body {
   readonly motion: Motion;
   readonly atRest: boolean;
   readonly angle: number; ///< [rad] No more than this is it turned over the whole step.
+  readonly course?: Course; ///< Of a run, where the body moves.
 }
 
 /// Some links have nothing that could be drawn.
@@ -105,6 +112,7 @@ function along(body: Body, way: WayData, { header, steps }: RunData): Body {
     motion: motionAlong(way, centre, steps.at(-1)!.time),
     atRest: false,
     angle: angleAlong(way),
+    course: { way, centre },
   };
 }
 

@@ -1,10 +1,11 @@
 /// The page of a run in a browser: bodies are where the record says, at every instant.
 
+import { readFileSync } from "node:fs";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import type { QuaternionWxyz, Vector3 } from "../src/data/result";
 import type { WayData } from "../src/data/run_data";
-import { motionAlong } from "../src/motion/way";
+import { keysAlong, motionAlong } from "../src/motion/way";
 import {
   add,
   compose,
@@ -41,6 +42,24 @@ describe("the way of a body", () => {
     expect(distance(motion(0).position, [-1, 0, 0])).toBeLessThan(1e-12);
     expect(distance(motion(1).position, [2, 3, 0])).toBeLessThan(1e-6);
     expect(distance(motion(1.5).position, [2, 3, 0])).toBeLessThan(1e-6);
+  });
+
+  const turning = (...angles: number[]): WayData => ({
+    ...way,
+    times: Float64Array.from([0, ...angles], (_, k) => k),
+    turns: new Float32Array(angles.flatMap((angle) => [0, 0, angle])),
+  });
+
+  test("has keys at the ends of its pieces, and within those that turn fast", () => {
+    expect(keysAlong(turning(0, 1.5, 0), 100)).toEqual([0, 1, 2, 3]);
+    expect(keysAlong(turning(0, 2.9 * Math.PI, 0), 100)).toEqual(
+      [0, 1, 7 / 6, 8 / 6, 9 / 6, 10 / 6, 11 / 6, 2, 3].map((time) => expect.closeTo(time, 12)),
+    );
+  });
+
+  test("leaves keys out only where it turns by less than a quarter between them", () => {
+    expect(keysAlong(turning(0, 0, 0, 0, 0, 0), 3)).toEqual([0, 2, 4, 6]);
+    expect(keysAlong(turning(1, 1, 0, 0, 1, 1), 3)).toEqual([0, 1, 2, 4, 5, 6]);
   });
 });
 
@@ -240,6 +259,127 @@ describe.skipIf(!canLook)("the page of a run", () => {
 
   test("complained about nothing", () => {
     expect(complaints).toEqual([]);
+  });
+});
+
+/// A bar with an odd centre of mass that turns by more than two turns in a step.
+const spin = {
+  firstcontact: 1,
+  id: "spin",
+  bodies: [
+    {
+      name: "bar",
+      shape: { box: { size: [1, 0.2, 0.3] } },
+      pose: { position: [0, 0, 5], rpy: [0.3, 0.2, 0.1] },
+      dynamics: {
+        angular_velocity: [30, 700, -100],
+        linear_velocity: [1, 2, 3],
+        centre_of_mass: [0.1, 0.02, 0],
+        mass: 2,
+        inertia: [
+          [1, 0, 0],
+          [0, 2, 0],
+          [0, 0, 2.5],
+        ],
+      },
+    },
+  ],
+  simulation: { duration: 0.2, step: 0.02 },
+};
+
+interface AnimationJson {
+  readonly animations: readonly {
+    readonly channels: readonly { sampler: number; target: { path: string; node: number } }[];
+    readonly samplers: readonly { input: number; output: number }[];
+  }[];
+  readonly accessors: readonly { bufferView: number; byteOffset?: number; count: number }[];
+  readonly bufferViews: readonly { byteOffset?: number }[];
+  readonly nodes: readonly { translation?: Vector3; children?: number[] }[];
+}
+
+describe.skipIf(!canLook)("the animation of a body that spins fast", () => {
+  test("has it where the run has it, between keys too", async () => {
+    const folder = new Folder();
+    const made = await folder.simulate("spin", spin);
+    const browser = await launch();
+    const page = await browser.newPage();
+    await page.goto(made.url);
+    await page.waitForFunction(() => "firstcontact" in window);
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    const bytes = readFileSync(await glb.path());
+    const head = bytes.readUInt32LE(12);
+    const json = JSON.parse(bytes.subarray(20, 20 + head).toString()) as AnimationJson;
+    const numbers = (accessor: number, width: number): number[][] => {
+      const { bufferView, byteOffset = 0, count } = json.accessors[accessor]!;
+      const at = 28 + head + byteOffset + (json.bufferViews[bufferView]!.byteOffset ?? 0);
+      return Array.from({ length: count }, (_, k) =>
+        Array.from({ length: width }, (_, i) => bytes.readFloatLE(at + 4 * (k * width + i))),
+      );
+    };
+    const { channels, samplers } = json.animations[0]!;
+    const track = (path: string, width: number) => {
+      const { input, output } = samplers[channels.find((c) => c.target.path === path)!.sampler]!;
+      return { times: numbers(input, 1).flat(), values: numbers(output, width) };
+    };
+    const places = track("translation", 3);
+    const rotations = track("rotation", 4);
+    const surface = json.nodes[json.nodes[channels[0]!.target.node]!.children![0]!]!;
+
+    // As glTF has it: on lines, and by the shortest turn.
+    const keyAt = (times: number[], time: number) => {
+      const next = Math.max(
+        times.findIndex((key) => key >= time),
+        1,
+      );
+      const share = (time - times[next - 1]!) / (times[next]! - times[next - 1]!);
+      return { next, share };
+    };
+    const played = (time: number): { position: Vector3; rotation: QuaternionWxyz } => {
+      const turning = keyAt(rotations.times, time);
+      const [from, to] = [turning.next - 1, turning.next].map((k): QuaternionWxyz => {
+        const [x, y, z, w] = rotations.values[k]!;
+        return [w!, x!, y!, z!];
+      }) as [QuaternionWxyz, QuaternionWxyz];
+      const [w, x, y, z] = compose(to, [from[0], -from[1], -from[2], -from[3]]);
+      const v: Vector3 = w < 0 ? [-x, -y, -z] : [x, y, z];
+      const angle = 2 * Math.atan2(length(v), Math.abs(w));
+      const rotation = compose(turn(unit(v), turning.share * angle), from);
+      const going = keyAt(places.times, time);
+      const [a, b] = [going.next - 1, going.next].map(
+        (k) => places.values[k] as unknown as Vector3,
+      );
+      const node = add(a!, scale(going.share, subtract(b!, a!)));
+      return { position: add(node, rotate(rotation, surface.translation!)), rotation };
+    };
+    for (const step of made.steps) {
+      const { pieces } = step.bodies[0]!;
+      let begin = 0;
+      let all = 0;
+      for (const piece of pieces) {
+        const [to, px, py, pz, qw, qx, qy, qz, tx, ty, tz, rx, ry, rz] = piece as number[];
+        const turned: Vector3 = [rx!, ry!, rz!];
+        all += length(turned);
+        for (const share of [0.25, 0.71]) {
+          const start: QuaternionWxyz = [qw!, qx!, qy!, qz!];
+          const rotation = compose(turn(unit(turned), share * length(turned)), start);
+          const c: Vector3 = [0.1, 0.02, 0];
+          const from = add([px!, py!, pz!], rotate(start, c));
+          const middle = add(from, scale(share, [tx!, ty!, tz!]));
+          const time = step.time - step.lasted + begin + share * (to! - begin);
+          const seen = played(time);
+          const across = distance(rotate(seen.rotation, [1, 0, 0]), rotate(rotation, [1, 0, 0]));
+          expect(across).toBeLessThan(1e-3);
+          expect(distance(seen.position, subtract(middle, rotate(rotation, c)))).toBeLessThan(1e-3);
+        }
+        begin = to!;
+      }
+      expect(all).toBeGreaterThan(4 * Math.PI);
+    }
+    await browser.close();
+    folder.remove();
   });
 });
 

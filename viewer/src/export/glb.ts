@@ -14,7 +14,11 @@ import {
   type KeyframeTrack,
 } from "three";
 import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
-import type { Body, Model } from "../model";
+import type { QuaternionWxyz, Vector3 as Vector3Data } from "../data/result";
+import type { Body, Course, Model } from "../model";
+import { place } from "../motion/motion";
+import { subtract, zero } from "../motion/vector";
+import { keysAlong } from "../motion/way";
 import type { BodyView } from "../view/body_view";
 import type { DrawnShape } from "../view/drawn_shape";
 import type { GeometryView } from "../view/geometry_view";
@@ -23,13 +27,8 @@ const leastKeys = 61;
 const mostKeys = 2401;
 const keyAngle = Math.PI / 24; // Between two keys a player turns by the shortest way.
 
-/// Enough keys for the body that turns most, the first contact among them; of a run, its steps.
-export function keyTimes(model: Model): number[] {
-  if (model.run) {
-    const { ends } = model.run;
-    const every = Math.ceil(ends.length / mostKeys);
-    return [0, ...ends.filter((_, k) => (ends.length - 1 - k) % every === 0)];
-  }
+/// Enough keys for the body that turns most, the first contact among them.
+function keyTimes(model: Model): number[] {
   const angle = Math.max(...model.bodies.map((body) => body.angle));
   const count = Math.min(Math.max(leastKeys, Math.ceil(angle / keyAngle) + 1), mostKeys);
   const times = new Set(Array.from({ length: count }, (_, k) => k / (count - 1)));
@@ -39,6 +38,21 @@ export function keyTimes(model: Model): number[] {
   return [...times].sort((a, b) => a - b);
 }
 
+/// Between two keys the centre of mass goes on a line, and a player turns by the shortest way.
+function keysOfRun({ way }: Course, duration: number): number[] {
+  return keysAlong(way, mostKeys).map((time) => Math.min(time / duration, 1));
+}
+
+/// Of a rotation's two quaternions the one nearer to that before it.
+function withoutFlips(rotations: readonly QuaternionWxyz[]): QuaternionWxyz[] {
+  const kept: QuaternionWxyz[] = [];
+  for (const [w, x, y, z] of rotations) {
+    const [a, b, c, d] = kept.at(-1) ?? [w, x, y, z];
+    kept.push(a * w + b * x + c * y + d * z < 0 ? [-w, -x, -y, -z] : [w, x, y, z]);
+  }
+  return kept;
+}
+
 function tracksOf(
   body: Body,
   name: string,
@@ -46,22 +60,24 @@ function tracksOf(
   duration: number,
 ): KeyframeTrack[] {
   const seconds = keys.map((t) => t * duration);
+  const pivot = body.course?.centre ?? zero;
   if (body.geometries[0]?.to) {
     return [
       new NumberKeyframeTrack(`${name}-surface.morphTargetInfluences[0]`, seconds, [...keys]),
     ];
   }
   const poses = keys.map((t) => body.motion(t));
+  const rotations = withoutFlips(poses.map(({ rotation }) => rotation));
   return [
     new VectorKeyframeTrack(
       `${name}.position`,
       seconds,
-      poses.flatMap(({ position }) => [...position]),
+      poses.flatMap((pose) => [...place(pose, pivot)]),
     ),
     new QuaternionKeyframeTrack(
       `${name}.quaternion`,
       seconds,
-      poses.flatMap(({ rotation: [w, x, y, z] }) => [x, y, z, w]),
+      rotations.flatMap(([w, x, y, z]) => [x, y, z, w]),
     ),
   ];
 }
@@ -73,13 +89,18 @@ function surfaceOf({ geometry, kind }: DrawnShape, color: string): Object3D {
     : new Mesh(geometry, new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.1 }));
 }
 
-function pieceOf({ shape, drawn, surface, drawnColor }: GeometryView, name: string): Object3D {
+/// @param pivot  [m] Where the node that holds it has its origin, in the body.
+function pieceOf(
+  { shape, drawn, surface, drawnColor }: GeometryView,
+  name: string,
+  pivot: Vector3Data,
+): Object3D {
   const look = surfaceOf(drawn, drawnColor);
   look.name = name;
   look.position.copy(surface.position);
   const { position, rotation } = shape.pose;
   const node = new Object3D();
-  node.position.set(...position);
+  node.position.set(...subtract(position, pivot));
   node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
   return node.add(look);
 }
@@ -95,13 +116,16 @@ export async function animationOf(model: Model, views: readonly BodyView[]): Pro
     const node = new Object3D();
     node.name = name;
     node.userData = { body: body.name };
-    const { position, rotation } = body.motion(0);
-    node.position.set(...position);
+    const pivot = body.course?.centre ?? zero;
+    const start = body.motion(0);
+    const { rotation } = start;
+    node.position.set(...place(start, pivot));
     node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
-    shownPieces.forEach((piece, k) => node.add(pieceOf(piece, `${name}-surface${k || ""}`)));
+    shownPieces.forEach((piece, k) => node.add(pieceOf(piece, `${name}-surface${k || ""}`, pivot)));
     root.add(node);
     if (!body.atRest) {
-      tracks.push(...tracksOf(body, name, keys, model.duration));
+      const own = body.course ? keysOfRun(body.course, model.duration) : keys;
+      tracks.push(...tracksOf(body, name, own, model.duration));
     }
   }
   const animations = tracks.length > 0 ? [new AnimationClip("motion", model.duration, tracks)] : [];

@@ -64,3 +64,37 @@ export const angleAlong = ({ turns }: WayData): number =>
     (sum, angle) => sum + angle,
     0,
   );
+
+const quarter = 0.5 * Math.PI;
+
+/// [s] Moments between which a body turns by a quarter at most, so that the shortest turn from one
+/// to the next is the body's; at the ends of its pieces and within fast ones.
+///
+/// @param most  Of longer ways pieces are left out that turn by less than a quarter together.
+export function keysAlong({ times, turns }: WayData, most: number): number[] {
+  const last = times.length - 1;
+  const every = Math.ceil(last / most);
+  const keys: number[] = [];
+  // Files have them in single precision, and they increase.
+  const add = (time: number): void => {
+    if (keys.length > 0 && Math.fround(time) <= Math.fround(keys.at(-1)!)) {
+      keys.pop();
+    }
+    keys.push(time);
+  };
+  let turned = 0; // Since the last key.
+  for (let k = 0; k < last; ++k) {
+    const angle = length(vectorAt(turns, k));
+    const parts = Math.max(1, Math.ceil(angle / quarter));
+    if (k % every === 0 || turned + angle > quarter) {
+      add(times[k]!);
+      turned = 0;
+    }
+    for (let part = 1; part < parts; ++part) {
+      add(times[k]! + (part / parts) * (times[k + 1]! - times[k]!));
+    }
+    turned = parts > 1 ? angle / parts : turned + angle;
+  }
+  add(times[last]!);
+  return keys;
+}
