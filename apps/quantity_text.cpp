@@ -30,6 +30,11 @@ Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
   return units.back();
 }
 
+/// With the four digits that in_unit() shows, so that 999.99 µm are 1 mm.
+double rounded(double quantity) {
+  return std::isfinite(quantity) ? std::stod(fmt::format("{:.3e}", quantity)) : quantity;
+}
+
 std::string in_unit(double quantity, Unit unit) {
   constexpr double kShown = 1e-3;  // What is less, of the smallest unit, is rounding.
   if (quantity > 0.0 && quantity < kShown * unit.size) {
@@ -44,7 +49,7 @@ Unit length_unit(double metres) { return fitting(kLengths, metres, kLengths[1]);
 
 Unit time_unit(double seconds) { return fitting(kTimes, seconds, kTimes[0]); }
 
-std::string length_text(double metres) { return in_unit(metres, length_unit(metres)); }
+std::string length_text(double metres) { return in_unit(metres, length_unit(rounded(metres))); }
 
 std::string lower_bound_text(double metres) {
   if (!(metres > 0.0) || !std::isfinite(metres)) {
@@ -60,13 +65,26 @@ std::string lower_bound_text(double metres) {
              : nearest;
 }
 
-std::string time_text(double seconds) { return in_unit(seconds, time_unit(seconds)); }
+std::string apart_text(double metres) {
+  return std::isfinite(metres) ? lower_bound_text(metres) + " or more, proven"
+                               : "no pair to keep apart";
+}
+
+std::string time_text(double seconds) { return in_unit(seconds, time_unit(rounded(seconds))); }
 
 std::string impulse_text(double newton_seconds) {
-  return in_unit(newton_seconds, fitting(kImpulses, newton_seconds, kImpulses[1]));
+  return in_unit(newton_seconds, fitting(kImpulses, rounded(newton_seconds), kImpulses[1]));
 }
 
 std::string speed_text(double metres_per_second) { return length_text(metres_per_second) + "/s"; }
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string plain_number(double number) {
+  return std::abs(number) >= 100.0 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g}", number);
+}
 
 std::string direction_text(const Eigen::Vector3d& direction) {
   // Without a sign on what is rounded to zero.

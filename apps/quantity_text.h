@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <Eigen/Core>
@@ -24,6 +25,9 @@ struct Unit {
 /// As length_text(), but never more than the length: for proven lower bounds.
 [[nodiscard]] std::string lower_bound_text(double metres);
 
+/// "0.913 µm or more, proven"; of an infinite distance that there is no pair.
+[[nodiscard]] std::string apart_text(double metres);
+
 /// "12.5 ms"
 [[nodiscard]] std::string time_text(double seconds);
 
@@ -32,6 +36,12 @@ struct Unit {
 
 /// "-3.1 mm/s"
 [[nodiscard]] std::string speed_text(double metres_per_second);
+
+/// "1 edge", "2 edges"
+[[nodiscard]] std::string counted(std::size_t count, const char* what);
+
+/// "1310", "12.4", "0.0371": three digits at least, never a power of ten for what is large.
+[[nodiscard]] std::string plain_number(double number);
 
 /// "(0.000, 0.707, -0.707)"
 [[nodiscard]] std::string direction_text(const Eigen::Vector3d& direction);

@@ -53,6 +53,11 @@ struct Arguments {
   bool lenient = false;
 };
 
+/// As messages name the scene.
+std::string name_of(const Arguments& arguments) {
+  return arguments.scene == kStdin ? std::string(kStdinName) : arguments.scene;
+}
+
 Simulator load(const Arguments& arguments) {
   const std::vector<OutputFile> outputs{
       {"-o", arguments.output}, {"--html", arguments.page}, {"--glb", arguments.animation}};
@@ -65,7 +70,7 @@ Simulator load(const Arguments& arguments) {
           : read_simulation_scene(arguments.scene, reading);
   require_no_input(outputs, files_of(scene));
   if (!scene.simulation) {
-    throw ParseError(arguments.scene,
+    throw ParseError(name_of(arguments),
                      "expected \"simulation\" or a body with \"dynamics\"; without them nothing "
                      "moves freely (see `check` for scripted motion)");
   }
@@ -81,7 +86,7 @@ Simulator load(const Arguments& arguments) {
     simulator.set_threads(arguments.threads);
     return simulator;
   } catch (const std::invalid_argument& error) {
-    throw ParseError(arguments.scene, error.what());
+    throw ParseError(name_of(arguments), error.what());
   }
 }
 
@@ -222,7 +227,7 @@ class Run {
     const Scene& scene = simulator_.header().scene;
     const LoadedScene& loaded = simulator_.loaded();
     say(fmt::format(
-        "{}: {}\n", visible(arguments_.scene),
+        "{}: {}\n", visible(name_of(arguments_)),
         is_whole ? "simulated; " + no_penetration_text(loaded.pair_counts) : "stopped early"));
     const auto free =
         std::ranges::count_if(scene.bodies, [](const Body& b) { return b.free.has_value(); });
@@ -237,12 +242,13 @@ class Run {
                               time_text(scene.simulation->step), resumed));
     if (work_.steps > 0) {
       const auto steps = static_cast<double>(work_.steps);
-      line("took", fmt::format("{}, {} a step, {} the slowest; {:.3g} times real time",
-                               time_text(work_.seconds), time_text(work_.seconds / steps),
-                               time_text(work_.slowest), work_.simulated / work_.seconds));
+      line("took",
+           fmt::format("{}, {} a step, {} the slowest; {} times real time",
+                       time_text(work_.seconds), time_text(work_.seconds / steps),
+                       time_text(work_.slowest), plain_number(work_.simulated / work_.seconds)));
     }
     if (tally_.first_energy) {
-      line("apart", length_text(tally_.clearance) + " or more, proven");
+      line("apart", apart_text(tally_.clearance));
       line("impacts", fmt::format("{}{}", tally_.events,
                                   tally_.impulse ? ", " + impulse_text(*tally_.impulse) +
                                                        " the greatest at one place"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -66,6 +67,25 @@ TEST(Simulator, FreeFlightIsExact) {
   EXPECT_NEAR(last.bodies[0].X_WB.position.x(), 1.0, 1e-12);
   EXPECT_NEAR(last.bodies[0].X_WB.position.z(), 3.0 - 5.0, 1e-12);
   EXPECT_NEAR(last.bodies[0].linear_velocity.z(), -7.0, 1e-12);
+}
+
+TEST(Simulator, KeepsNothingApartWhereThereIsNoPair) {
+  // Alone; and scripted bodies pass through each other.
+  const std::string script = R"({"name": "b", "shape": {"sphere": {"radius": 0.1}},
+      "motion": {"type": "constant_velocity", "from": {"position": [1, 0, 0]},
+                 "translation": [-2, 0, 0]}})";
+  const std::string fixed = body("a", ball("0.1"), "[0, 0, 0]");
+  for (const std::string& bodies :
+       {body("a", ball("0.1"), "[0, 0, 0]", kFree), fixed + ", " + script}) {
+    Simulator s = simulator(bodies, R"("duration": 1, "step": 0.1)");
+    for (const RunStep& step : run(s, 10)) {
+      EXPECT_EQ(step.clearance, std::numeric_limits<double>::infinity());
+      EXPECT_NE(write_run_step(step).find(R"("clearance":null)"), std::string::npos);
+    }
+  }
+  Simulator pair = simulator(body("b", ball("0.1"), "[0, 0, 5]", kFree) + ", " + fixed,
+                             R"("duration": 1, "step": 0.1)");
+  EXPECT_LT(run(pair, 1).back().clearance, 1e-3);
 }
 
 TEST(Simulator, TimedForcesActWhileTheyLast) {

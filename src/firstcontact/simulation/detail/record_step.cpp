@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -66,7 +67,9 @@ class StepRecorder {
                  .time = state_.time + lasted_,
                  .lasted = lasted_,
                  .time_lost = start_.h - lasted_};
-    step.clearance = model_.distances.least;
+    // Islands hold what is near at this distance, whether there is any or not.
+    step.clearance =
+        model_.has_pairs ? model_.distances.least : std::numeric_limits<double>::infinity();
     add_tracks(tracks, step);
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
       if (model_.bodies[b].kind == BodyKind::scripted) {
@@ -94,7 +97,9 @@ class StepRecorder {
       efforts.emplace_back(VectorXd::Zero(robot.velocities.size()));
     }
     for (const IslandTrack& track : tracks) {
-      step.clearance = std::min(step.clearance, track.clearance);
+      if (model_.has_pairs) {
+        step.clearance = std::min(step.clearance, track.clearance);
+      }
       step.residual = std::max(step.residual, track.residual);
       step.events += track.events;
       std::ranges::copy_if(track.impacts, std::back_inserter(step.impacts),

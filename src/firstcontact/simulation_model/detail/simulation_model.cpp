@@ -67,6 +67,7 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
     : bodies(make_sim_bodies(loaded.scene, linked)),
       robots(make_sim_robots(loaded, linked)),
       laws(linked.loaded),
+      has_pairs(linked.loaded.pair_counts.tested > 0),
       distances(contact_distance_of(*loaded.scene.simulation, bodies)),
       neighbours(neighbours_of(bodies, distances.band)),
       round_circles(round_circles_of(bodies, distances.tolerance)),

@@ -31,6 +31,7 @@ struct SimulationModel {
   std::vector<SimBody> bodies;
   std::vector<SimRobot> robots;
   PairLaws laws;
+  bool has_pairs;  ///< Whether there is any pair to keep apart.
   ContactDistances distances;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
   std::vector<std::shared_ptr<const RoundCircles>> round_circles;    ///< Of each body.
