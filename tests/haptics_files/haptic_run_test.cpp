@@ -90,6 +90,12 @@ const char* const kPusher = R"({"firstcontact": 1, "bodies": [
   {"name": "wall", "shape": {"box": {"size": [0.02, 0.1, 0.1]}}, "pose": {"position": [0.06, 0, 0]}}],
   "options": {"duration": 0.2}, "haptics": {"tools": [{"body": "tool"}]}})";
 
+TEST(HapticRun, SaysThatItIsOne) {
+  const Recorded recorded = record_cycles(kPlate, 1, [](int, std::size_t) { return Pose{}; });
+  std::istringstream stream(recorded.run);
+  EXPECT_EQ(RunReader(stream, "run.jsonl").header().kind, RunKind::haptics);
+}
+
 TEST(HapticRun, IsProvenWhereSurroundingsMoveAndHaveToWait) {
   const Recorded recorded = record_cycles(kPusher, 200, [](int, std::size_t) { return Pose{}; });
   const RunVerification proof = verify_text(recorded.run);

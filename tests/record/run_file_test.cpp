@@ -165,6 +165,24 @@ TEST(RunFile, KeepsItsScene) {
   EXPECT_TRUE(std::signbit(reader.header().centres_of_mass[0].x()));
 }
 
+TEST(RunFile, SaysOfWhatItIsTheRecord) {
+  const auto read = [](const std::string& header) {
+    std::istringstream stream(header);
+    return RunReader(stream, "run.jsonl").header().kind;
+  };
+  RunHeader header = example_header();
+  const std::string simulation = write_run_header(header);
+  EXPECT_EQ(simulation.find(R"("kind")"), std::string::npos);
+  EXPECT_EQ(read(simulation), RunKind::simulation);
+  header.kind = RunKind::haptics;
+  const std::string haptics = write_run_header(header);
+  EXPECT_EQ(read(haptics), RunKind::haptics);
+  const std::string word = R"("haptics")";
+  std::string other = haptics;
+  other.replace(other.find(word), word.size(), R"("dreams")");
+  EXPECT_NE(complaint(other).find("expected \"haptics\""), std::string::npos) << complaint(other);
+}
+
 TEST(RunFile, HasNoClearanceWhereThereIsNoPair) {
   Doubles doubles;
   RunStep step = example_step(1, doubles);

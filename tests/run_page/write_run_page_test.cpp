@@ -94,6 +94,12 @@ TEST(RunPage, CountsContactsStepByStep) {
                          base64_single({0.5F}) + "\"}");
 }
 
+TEST(RunPage, SaysWhereLinksBegin) {
+  test::RecordedRun run(kScene);
+  run.add({{0, {{.lasts = 1.0}}}});
+  expect_holds(page_of(run), R"("links_from":2,)");
+}
+
 TEST(RunPage, HoldsTheHeaderWithoutAnEndOfItsScript) {
   test::RecordedRun run(kScene);
   run.add({{0, {{.lasts = 1.0}}}});

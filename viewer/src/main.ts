@@ -117,7 +117,10 @@ function start(model: Model, result: number | null = null): void {
       step: (direction, fine = false) =>
         model.run && !fine
           ? player.seek(model.run.neighbour(player.t.value, direction))
-          : player.step(direction * (fine ? fineStep : coarseStep)),
+          : player.step(
+              direction *
+                (fine ? (model.run?.fineStep(player.t.value, fineStep) ?? fineStep) : coarseStep),
+            ),
       fit: () => view.fitAll(),
       toContact: () => {
         player.toContact();

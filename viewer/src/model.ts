@@ -104,11 +104,11 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
 }
 
 /// A body by its way in a run, and no longer by what the scene says.
-function along(body: Body, way: WayData, { header, steps }: RunData): Body {
+function along(body: Body, way: WayData, { header, linksFrom, steps }: RunData): Body {
   const centre = header.centres_of_mass[way.body]!;
   return {
     ...body,
-    kind: header.masses[way.body]! > 0 ? "free" : body.kind,
+    kind: way.body >= linksFrom ? "link" : header.masses[way.body]! > 0 ? "free" : body.kind,
     motion: motionAlong(way, centre, steps.at(-1)!.time),
     atRest: false,
     angle: angleAlong(way),
@@ -215,6 +215,19 @@ function coordinatesOf(
   );
 }
 
+/// The name of the page's own file, without its ending; nothing of a page inside another one.
+function pageName(): string {
+  const { protocol, pathname } = globalThis.location ?? { protocol: "", pathname: "" };
+  if (!["file:", "http:", "https:"].includes(protocol)) {
+    return "";
+  }
+  try {
+    return decodeURIComponent(pathname.split("/").at(-1)!).replace(/\.html?$/i, "");
+  } catch {
+    return ""; // Not a name that a browser writes.
+  }
+}
+
 export class Model {
   readonly title: string;
   readonly version: string;
@@ -243,7 +256,7 @@ export class Model {
 
   constructor(page: PageData) {
     const { result, run, scene, robots } = page;
-    this.title = scene.id || "Scene";
+    this.title = scene.id || pageName() || "Scene";
     this.version = page.version;
     this.result = result;
     this.run = run ? new Run(run) : null;

@@ -21,6 +21,7 @@ export interface RunContact {
   readonly distance: number; ///< [m]
 }
 
+const rounding = 1e-12; // Of a quotient of whole steps.
 const near = 1e-9; // In t: a moment this close to the end of a step is its end.
 
 export class Run {
@@ -33,8 +34,10 @@ export class Run {
   readonly ends: Float64Array;
   /// [N] The greatest contact force of each step.
   readonly greatestForces: readonly number[];
-  /// Whether there was any energy or force: the way of a haptic tool has neither.
+  /// Whether forces moved the bodies: a haptic tool has neither energies nor impulses.
   readonly hasDynamics: boolean;
+  /// Bodies without the geometries of links, which are behind them.
+  readonly linksFrom: number;
   /// What the events of a step are: a haptic tool has none but the rounds of its contact loop.
   readonly eventName: "Impacts" | "Rounds";
   /// [W] Of all motors together in each step, negative where they brake; none without motors.
@@ -44,18 +47,20 @@ export class Run {
   readonly impacts: readonly RunImpact[];
 
   private readonly all: RunContactsData;
+  private readonly askedSteps: number;
 
-  constructor({ header, steps, contacts }: RunData) {
+  constructor({ header, linksFrom, steps, contacts }: RunData) {
+    const { gravity, duration, step } = header.scene.simulation;
+    this.linksFrom = linksFrom;
     this.steps = steps;
     this.masses = header.masses;
-    this.gravity = header.scene.simulation.gravity;
-    this.asked = header.scene.simulation.duration;
+    this.gravity = gravity;
+    this.asked = duration;
+    this.askedSteps = Math.ceil((duration / step) * (1 - rounding));
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
     this.greatestForces = steps.map((_, step) => this.greatestForce(step));
-    this.hasDynamics =
-      this.greatestForces.some(Boolean) ||
-      steps.some((step) => step.kinetic_energy !== 0 || step.potential_energy !== 0);
+    this.hasDynamics = header.kind !== "haptics";
     this.eventName = this.hasDynamics ? "Impacts" : "Rounds";
     this.impacts = steps.flatMap((_, step) => this.impactsIn(step)).sort((a, b) => a.t - b.t);
     const hasMotors = steps.some(({ robots }) =>
@@ -78,9 +83,21 @@ export class Run {
     return times.length > 0 ? Math.min(...times) : null;
   }
 
-  /// Whether it was simulated to the end that was asked for.
+  /// Whether it has all steps that were asked for. Steps that lost time count, too; cycles of a
+  /// haptic session last as long as they lasted.
   get isWhole(): boolean {
-    return this.duration > this.asked * (1 - 1e-9);
+    return this.hasDynamics
+      ? this.steps.length >= this.askedSteps
+      : this.duration > this.asked * (1 - 1e-9);
+  }
+
+  /// Geometries of links.
+  get linkCount(): number {
+    return this.masses.length - this.linksFrom;
+  }
+
+  get freeCount(): number {
+    return this.masses.slice(0, this.linksFrom).filter((mass) => mass > 0).length;
   }
 
   /// The number, from 0, of the step that is under way or just ends.
@@ -92,6 +109,12 @@ export class Run {
   neighbour(t: number, direction: 1 | -1): number {
     const next = firstNotLess(this.ends, direction > 0 ? t + near : t - near);
     return direction > 0 ? (this.ends[next] ?? 1) : (this.ends[next - 1] ?? 0);
+  }
+
+  /// In t: as far as asked, but a tenth of the step that is under way at most.
+  fineStep(t: number, most: number): number {
+    const { lasted } = this.steps[this.stepAt(t)]!;
+    return lasted > 0 ? Math.min(most, (0.1 * lasted) / this.duration) : most;
   }
 
   contactCount(step: number): number {

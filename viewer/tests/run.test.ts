@@ -159,6 +159,7 @@ describe.skipIf(!canLook)("the page of a run", () => {
 
   test("says what the run and its steps amount to", async () => {
     const page = await show();
+    expect(await text(page, "Run")).toMatch(/Apart≥/);
     expect(await text(page, "Run")).toMatch(/drop.*Simulated.*Steps50, 1\ss.*Bodies3, 1 free/);
     const index = made.steps.findIndex(({ contacts }) =>
       contacts.some(({ impulse }) => length(impulse) > 0),
@@ -319,6 +320,8 @@ describe.skipIf(!canLook)("the animation of a body that spins fast", () => {
         Array.from({ length: width }, (_, i) => bytes.readFloatLE(at + 4 * (k * width + i))),
       );
     };
+    const said = await page.getByRole("region", { name: "Run", exact: true }).textContent();
+    expect(said).toContain("Apartno pair to keep apart"); // It is alone.
     const { channels, samplers } = json.animations[0]!;
     const track = (path: string, width: number) => {
       const { input, output } = samplers[channels.find((c) => c.target.path === path)!.sampler]!;
@@ -378,6 +381,41 @@ describe.skipIf(!canLook)("the animation of a body that spins fast", () => {
       }
       expect(all).toBeGreaterThan(4 * Math.PI);
     }
+    await browser.close();
+    folder.remove();
+  });
+});
+
+describe.skipIf(!canLook)("a page of odd names", () => {
+  test("is named by its file, and holds long names in its panel", async () => {
+    const folder = new Folder();
+    const { id, ...nameless } = drop;
+    const [first, ...others] = drop.bodies;
+    const long = { ...first, name: "x".repeat(300) };
+    const simulation = { ...drop.simulation, duration: 0.4 };
+    const bodies = [long, ...others];
+    const made = await folder.simulate(`${id} it`, { ...nameless, simulation, bodies });
+    const browser = await launch();
+    const page = await browser.newPage();
+    await page.goto(made.url);
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await page.title()).toBe("drop it · firstcontact");
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    expect(glb.suggestedFilename()).toBe("drop-it.glb");
+    await page.evaluate(() => window.firstcontact.player.seek(1));
+    const room = await page.locator("aside.panel").evaluate((panel) => ({
+      wide: panel.scrollWidth,
+      seen: panel.clientWidth,
+    }));
+    expect(room.wide).toBeLessThanOrEqual(room.seen);
+    // With Shift an arrow goes less far than a step.
+    await page.evaluate(() => window.firstcontact.player.seek(0.5));
+    await page.keyboard.press("Shift+ArrowRight");
+    const t = await page.evaluate(() => window.firstcontact.player.t.value);
+    expect(t - 0.5).toBeCloseTo(0.001, 6);
     await browser.close();
     folder.remove();
   });

@@ -1,7 +1,7 @@
 /// The parts that need no browser.
 
 import { describe, expect, test } from "vitest";
-import { lengthText, pointText, timeText } from "../src/core/format";
+import { forceText, lengthText, pointText, timeText } from "../src/core/format";
 import { readPageData } from "../src/data/page_data";
 import type { Vector3 } from "../src/data/result";
 import { momentOf } from "../src/link";
@@ -22,6 +22,13 @@ describe("quantities", () => {
     expect(lengthText(null)).toBe("—");
     expect(timeText(0.00936776)).toBe("9.3678\u00a0ms");
     expect(pointText([0.001, -0.02, 0])).toBe("(1, −20, 0) mm");
+  });
+
+  test("are read in the unit of what is shown", () => {
+    expect(lengthText(0.00099999999)).toBe("1\u00a0mm");
+    expect(timeText(0.9999999)).toBe("1\u00a0s");
+    expect(forceText(999.9)).toBe("1\u00a0kN");
+    expect(lengthText(0.00099999999, 4, { down: true })).toBe("999.9\u00a0µm");
   });
 
   test("have no digits below their grain", () => {
@@ -60,20 +67,26 @@ describe("a run", () => {
     efforts: number[][],
     velocities: number[][],
     impulses: Vector3[] = [],
-    energy = 1,
+    {
+      last,
+      linksFrom = 0,
+      ...more
+    }: { last?: number; linksFrom?: number; kind?: "haptics"; masses?: number[] } = {},
   ): Run =>
     new Run({
       header: {
-        scene: { simulation: { duration: 2, gravity: [0, 0, -9.81] } },
+        scene: { simulation: { duration: 2, step: 1, gravity: [0, 0, -9.81] } },
         masses: [],
+        ...more,
       } as never,
+      linksFrom,
       steps: efforts.map((_, k) => ({
         step: k + 1,
-        time: k + 1,
+        time: k + 1 === efforts.length ? (last ?? k + 1) : k + 1,
         lasted: 1,
         time_lost: 0,
         clearance: null,
-        kinetic_energy: energy,
+        kinetic_energy: 0,
         potential_energy: 0,
         linear_momentum: [0, 0, 0],
         angular_momentum: [0, 0, 0],
@@ -153,7 +166,7 @@ describe("a run", () => {
 
   test("of a haptic tool has neither energy nor forces", () => {
     const still = [[0], [0]];
-    const felt = run(still, still, [], 0);
+    const felt = run(still, still, [], { kind: "haptics" });
     expect(felt.hasDynamics).toBe(false);
     const names = runCharts(felt).map(({ name }) => name);
     expect(names).toContain("contacts");
@@ -161,7 +174,37 @@ describe("a run", () => {
     expect(names).not.toContain("greatest contact force");
     expect(verdictOf({ result: null, run: felt } as never).text).toBe("Recorded");
     expect(felt.eventName).toBe("Rounds");
-    expect(verdictOf({ result: null, run: run(still, still) } as never).text).toBe("Simulated");
+  });
+
+  test("is simulated though nothing has energy or touches", () => {
+    const still = [[0], [0]];
+    const simulated = run(still, still);
+    expect(simulated.hasDynamics).toBe(true);
+    expect(simulated.eventName).toBe("Impacts");
+    expect(verdictOf({ result: null, run: simulated } as never).text).toBe("Simulated");
+  });
+
+  test("is whole by its steps, which may have lost time", () => {
+    const text = (count: number, last: number): string => {
+      const still = Array.from({ length: count }, () => [0]);
+      const data = run(still, still, [], { last });
+      return verdictOf({ result: null, run: data } as never).text;
+    };
+    expect(text(2, 1.5)).toBe("Simulated");
+    expect(text(1, 1)).toBe("Stopped early");
+  });
+
+  test("has fine steps of a tenth of a step", () => {
+    const still = Array.from({ length: 4 }, () => [0]);
+    const four = run(still, still);
+    expect(four.fineStep(0.6, 1 / 1000)).toBe(1 / 1000);
+    expect(four.fineStep(0.6, 1)).toBeCloseTo(1 / 40, 12);
+  });
+
+  test("counts free bodies without links", () => {
+    const one = run([[0]], [[0]], [], { masses: [2, 0, 0.4, 0.3], linksFrom: 2 });
+    expect(one.freeCount).toBe(1);
+    expect(one.linkCount).toBe(2);
   });
 });
 

@@ -280,7 +280,7 @@ that names file and line, where the file is no run.)")
       .def_property_readonly(
           "masses",
           [](const HeldRun& r) { return owning(std::vector(r.reader().header().masses)); },
-          "[kg] (n,), 0 of bodies that are not free.")
+          "[kg] (n,), 0 of bodies that are not free; links of robots with dynamics have theirs.")
       .def_property_readonly(
           "centres_of_mass",
           [](const HeldRun& r) { return owning(std::vector(r.reader().header().centres_of_mass)); },

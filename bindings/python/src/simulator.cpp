@@ -302,7 +302,7 @@ void bind_looks(py::class_<HeldSimulator>& type) {
           "Of the bodies, in order.")
       .def_property_readonly(
           "masses", [](HeldSimulator& s) { return owning(std::vector(s.idle().header().masses)); },
-          "[kg] (n,), 0 of bodies that are not free.")
+          "[kg] (n,), 0 of bodies that are not free; links of robots with dynamics have theirs.")
       .def_property_readonly(
           "centres_of_mass",
           [](HeldSimulator& s) { return owning(std::vector(s.idle().header().centres_of_mass)); },

@@ -45,6 +45,7 @@ RunContact run_contact(const HapticTouch& touch, std::size_t other, std::size_t 
 HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double contact_distance)
     : header_{.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest},
       bodies_(setup.bodies) {
+  header_.kind = RunKind::haptics;
   header_.scene.simulation->contact_distance = contact_distance;
   header_.masses.assign(loaded.scene.bodies.size(), 0.0);
   header_.centres_of_mass.assign(loaded.scene.bodies.size(), Eigen::Vector3d::Zero());

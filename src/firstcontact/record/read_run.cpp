@@ -181,9 +181,17 @@ RunHeader read_header(const std::string& text, const std::string& path,
   if (version == root.end() || *version != 1) {
     line.fail(root, "the header of a run, an object with \"firstcontact_run\": 1");
   }
-  line.require_keys(root, {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
-                           "masses", "centres_of_mass"});
+  line.require_keys(root,
+                    {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
+                     "masses", "centres_of_mass"},
+                    {"kind"});
   RunHeader header;
+  if (const auto kind = root.find("kind"); kind != root.end()) {
+    if (*kind != "haptics") {
+      line.fail(*kind, "\"haptics\"; a simulation has no \"kind\"");
+    }
+    header.kind = RunKind::haptics;
+  }
   header.scene = parse_embedded_scene(text, path, 1, options);
   header.version = line.string(root["version"]);
   header.scene.text_digest = line.string(root["scene_digest"]);

@@ -14,15 +14,24 @@
 
 namespace firstcontact {
 
+/// The origin of a run.
+enum class RunKind {
+  simulation,  ///< Forces moved its bodies.
+  haptics,     ///< Devices moved its tools, which have no energies and impulses.
+};
+
 /// The beginning of a run: its scene, the version, the digest of its input, and its masses.
 struct RunHeader {
   Scene scene;  ///< With its simulation, resolved: `contact_distance` is given. Its text_digest is
                 ///< that of the text that was simulated.
   std::string version;
-  std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal; may be empty.
-  std::vector<double> masses = {};  ///< [kg]  Of every body, link bodies too; 0: not free.
+  std::string input_digest;  ///< SHA-256 of everything read, in hexadecimal; may be empty.
+  std::vector<double> masses =
+      {};  ///< [kg]  Of every body; link bodies have theirs if their robot has dynamics, also on a
+           ///< base that is held. 0: neither free nor a link.
   std::vector<Eigen::Vector3d> centres_of_mass =
       {};  ///< [m]  p_BC of every body; pivots of the pieces.
+  RunKind kind = RunKind::simulation;
 };
 
 }  // namespace firstcontact

@@ -233,9 +233,10 @@ std::string write_run_header(const RunHeader& header) {
                      {"input_digest", header.input_digest},
                      {"masses", to_json(header.masses)},
                      {"centres_of_mass", to_json(header.centres_of_mass)}};
+  const char* kind = header.kind == RunKind::haptics ? "\"kind\":\"haptics\"," : "";
   // The scene has a writer of its own.
-  return "{\"firstcontact_run\":1,\"scene\":" + write_scene(header.scene) + "," +
-         rest.dump().substr(1) + "\n";
+  return std::string("{\"firstcontact_run\":1,") + kind + "\"scene\":" + write_scene(header.scene) +
+         "," + rest.dump().substr(1) + "\n";
 }
 
 std::string write_run_step(const RunStep& step) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -124,9 +125,10 @@ std::string RunPage::write(std::string_view page_template, const LoadedScene& lo
     throw std::invalid_argument("expected a run of some time: there is nothing to play");
   }
   const LoadedScene linked = links_as_bodies(loaded).loaded;
-  const std::string run = "{\"header\":" + header_json(linked.scene) + ",\"steps\":[" + steps_ +
-                          "],\"ways\":" + polylines_json() + ",\"contacts\":" + contacts_json() +
-                          "}";
+  const std::string run = "{\"header\":" + header_json(linked.scene) +
+                          ",\"links_from\":" + std::to_string(header_.scene.bodies.size()) +
+                          ",\"steps\":[" + steps_ + "],\"ways\":" + polylines_json() +
+                          ",\"contacts\":" + contacts_json() + "}";
   return write_page(page_template, linked, {.name = "run", .json = run});
 }
 

@@ -54,6 +54,10 @@ const impulses: readonly Unit[] = [
   { name: "µN s", size: 1e-6 },
 ];
 
+/// As it is shown with so many digits, so that 999.99 µm are 1 mm; what is cut stays as it is.
+const shownAs = (value: number, digits: number, { down = false }: Rounding = {}): number =>
+  down ? value : Number(value.toPrecision(digits));
+
 const unitFor = (units: readonly Unit[], base: Unit, value: number): Unit =>
   value === 0 ? base : (units.find(({ size }) => Math.abs(value) >= size) ?? units.at(-1)!);
 
@@ -121,19 +125,19 @@ export function quantity(
 export const lengthText = (value: number | null, digits = 4, rounding: Rounding = {}): string =>
   quantity(
     value,
-    lengthUnit(Math.max(Math.abs(value ?? 0), rounding.grain ?? 0)),
+    lengthUnit(Math.max(Math.abs(shownAs(value ?? 0, digits, rounding)), rounding.grain ?? 0)),
     digits,
     rounding,
   );
 export const timeText = (value: number | null, digits = 5, rounding: Rounding = {}): string =>
-  quantity(value, timeUnit(value ?? 0), digits, rounding);
+  quantity(value, timeUnit(shownAs(value ?? 0, digits, rounding)), digits, rounding);
 
 export const energyText = (value: number, digits = 4): string =>
-  quantity(value, energyUnit(value), digits);
+  quantity(value, energyUnit(shownAs(value, digits)), digits);
 export const forceText = (value: number, digits = 3): string =>
-  quantity(value, forceUnit(value), digits);
+  quantity(value, forceUnit(shownAs(value, digits)), digits);
 export const impulseText = (value: number, digits = 3): string =>
-  quantity(value, impulseUnit(value), digits);
+  quantity(value, impulseUnit(shownAs(value, digits)), digits);
 
 /// "(x, y, z) mm", all in the unit of the greatest and with no digit below the grain.
 export function pointText(point: Vector3, digits = 6, grain = 0): string {

@@ -67,9 +67,12 @@ export interface RunContactsData {
 }
 
 export interface RunHeader {
+  /// Left out of simulations.
+  readonly kind?: "haptics";
   readonly scene: SceneData & {
     readonly simulation: {
       readonly duration: number;
+      readonly step: number;
       readonly gravity: Vector3;
       readonly ties?: readonly TieData[];
     };
@@ -81,6 +84,8 @@ export interface RunHeader {
 
 export interface RunData {
   readonly header: RunHeader;
+  /// The number of the first geometry of a robot's links; as many as bodies where there is none.
+  readonly linksFrom: number;
   readonly steps: readonly StepData[];
   readonly ways: readonly WayData[];
   readonly contacts: RunContactsData;
@@ -93,6 +98,7 @@ type Stored<T> = {
 
 export interface StoredRun {
   readonly header: RunHeader;
+  readonly links_from: number;
   readonly steps: readonly StepData[];
   readonly ways: readonly Stored<WayData>[];
   readonly contacts: Stored<RunContactsData>;
@@ -102,9 +108,10 @@ const doubles = (text: string): Float64Array => new Float64Array(bytesOf(text));
 const singles = (text: string): Float32Array => new Float32Array(bytesOf(text));
 const counts = (text: string): Uint32Array => new Uint32Array(bytesOf(text));
 
-export function runOf({ header, steps, ways, contacts }: StoredRun): RunData {
+export function runOf({ header, links_from, steps, ways, contacts }: StoredRun): RunData {
   return {
     header,
+    linksFrom: links_from,
     steps,
     ways: ways.map(({ body, times, places, rotations, turns }) => ({
       body,

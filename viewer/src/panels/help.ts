@@ -7,7 +7,10 @@ declare const LICENCES: string;
 
 const keys: readonly (readonly [string, string])[] = [
   ["Space", "play, pause"],
-  ["← →", "step by a hundredth, or a step of a run; with Shift by a thousandth"],
+  [
+    "← →",
+    "step by a hundredth, or a step of a run; with Shift by a thousandth, or a tenth of a step",
+  ],
   ["Home End", "start, end"],
   ["Enter", "first contact"],
   ["f", "show everything; or what the page opened on"],

@@ -14,17 +14,21 @@ const least = (values: readonly number[]): number => values.reduce((a, b) => Mat
 const most = (values: readonly number[]): number => values.reduce((a, b) => Math.max(a, b));
 
 function facts(model: Model, run: Run): [string, string][] {
-  const { steps, masses } = run;
+  const { steps } = run;
   const clearances = steps.flatMap(({ clearance }) => (clearance === null ? [] : [clearance]));
   const energies = steps.map((step) => step.kinetic_energy + step.potential_energy);
   const impulses = run.impacts.map(({ impulse }) => length(impulse));
   const lost = sum(steps.map(({ time_lost }) => time_lost));
   return [
     ["Steps", `${steps.length}, ${timeText(run.duration)}`],
-    ["Bodies", `${masses.length}, ${masses.filter((mass) => mass > 0).length} free`],
-    ...(clearances.length > 0
-      ? [["Apart", `≥ ${lengthText(least(clearances), 4, { down: true })}`] as [string, string]]
-      : []),
+    ["Bodies", `${run.linksFrom}, ${run.freeCount} free`],
+    ...(run.linkCount > 0 ? [["Links", String(run.linkCount)] as [string, string]] : []),
+    [
+      "Apart",
+      clearances.length > 0
+        ? `≥ ${lengthText(least(clearances), 4, { down: true })}`
+        : "no pair to keep apart",
+    ],
     [run.eventName, String(sum(steps.map(({ events }) => events)))],
     ...(impulses.length > 0
       ? [["Greatest impact", impulseText(most(impulses))] as [string, string]]

@@ -32,7 +32,7 @@ function facts(run: Run, index: number): [string, string][] {
     ["Contacts", String(run.contactCount(index))],
     [
       "Apart",
-      step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
+      step.clearance === null ? "no pair" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
     ],
     [run.eventName, String(step.events)],
     ...(run.hasDynamics
