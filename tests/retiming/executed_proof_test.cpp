@@ -14,6 +14,7 @@
 
 #include <firstcontact/retiming/blend_motion.h>
 #include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/retime.h>
 #include <firstcontact/retiming/stop_motion.h>
 #include <firstcontact/retiming/write_trajectory.h>
 #include <firstcontact/robot/coordinate_path.h>
@@ -113,6 +114,36 @@ TEST(ProveMotion, RefusesABaseThatTurns) {
   where.scene.add_robot("arm", planar_motion({CoordinatePath::constant(0.0)}, turning));
   const TimedMotion motion{{"j0"}, {{0, {0.0}, {0.0}}, {1'000'000'000, {0.5}, {0.0}}}};
   EXPECT_THROW((void)prove_motion(motion, kLoose, where), std::invalid_argument);
+}
+
+// No time changes where a joint stands that the path does not move. So its limits, and those of
+// what mimics it, are not the motion's; a joint that moves has to keep its own.
+TEST(ProveMotion, LeavesJointsThatDoNotMoveBeyondTheirLimits) {
+  const RobotModel slides = gantry();
+  RobotDescription fingers{.name = "gantry",
+                           .links = {slides.links().begin(), slides.links().end()},
+                           .joints = {slides.joints().begin(), slides.joints().end()}};
+  fingers.links.push_back({"finger", {}, {}});
+  Joint finger{.name = "f", .type = JointType::prismatic, .parent = "ball", .child = "finger"};
+  finger.mimic = Mimic{.joint = "y", .multiplier = 1.0};
+  fingers.joints.push_back(finger);
+  for (Joint& joint : fingers.joints) {
+    joint.limits = {.lower = -0.04, .upper = joint.name == "x" ? 1.0 : 0.04};
+  }
+  RetimingScene where;
+  where.scene.add_robot("gantry",
+                        RobotMotion(RobotModel(fingers), {{"x", ramp(0, 0)}, {"y", ramp(0, 0)}}));
+  const std::vector<RateLimits> limits(2, {1.0, 5.0, 50.0});
+  const WaypointPath path{{"x", "y"}, {{0, 0.065}, {0.3, 0.065}, {0.1, 0.065}}};
+  for (const RetimingMode mode :
+       {RetimingMode::stop, RetimingMode::blend, RetimingMode::time_optimal}) {
+    const RetimedMotion retimed = retime(path, limits, where, {.mode = mode});
+    EXPECT_TRUE(retimed.proof.is_proven()) << kRetimingModeWords[static_cast<std::size_t>(mode)];
+  }
+  const WaypointPath moving{{"x", "y"}, {{0, 0.065}, {0.3, 0.066}}};
+  const RetimedMotion beyond = retime(moving, limits, where);
+  ASSERT_EQ(beyond.proof.positions.size(), 1u);
+  EXPECT_EQ(beyond.proof.positions[0].violations.size(), 2u);  // Of y, and of what mimics it.
 }
 
 // What is proven is the file: a number changed in it changes the answer.
