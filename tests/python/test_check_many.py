@@ -139,6 +139,14 @@ def test_progress_rises_to_the_end(make):
     assert seen == sorted(seen) and seen[-1] == 1.0 and len(seen) > 1
 
 
+def test_progress_ends_at_1_whichever_thread_is_last():
+    for _ in range(20):
+        seen = []
+        fc.check_many([falling_scene()] * 7, threads=4, progress=seen.append)
+        assert seen == sorted(seen)
+        assert seen[-1] == 1
+
+
 def test_an_exception_of_progress_ends_the_batch():
     def refuse(done: float) -> None:
         raise RuntimeError("enough")

@@ -172,7 +172,7 @@ class JobAnswerer {
 };
 
 /// @param abandoned  whether nobody waits for the answers any more: the rest has none
-/// @param progress   called by this thread, with the part that is done; may be empty
+/// @param progress   called by this thread, with the part that is done, up to 1; may be empty
 std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& options,
                                std::size_t threads, const std::function<bool()>& abandoned,
                                const std::function<void(double)>& progress) {
@@ -190,13 +190,24 @@ std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& o
       }
     }
   };
+  double told = 0.0;
+  std::function<void(double)> report;
+  if (progress) {
+    report = [&](double part) {
+      told = part;
+      progress(part);
+    };
+  }
   const auto work = [&] { work_and_report({}); };
   std::vector<std::jthread> others;
   for (std::size_t k = 1; k < std::min(threads, jobs.size()); ++k) {
     others.emplace_back(work);
   }
-  work_and_report(progress);
+  work_and_report(report);
   others.clear();  // Waits for them.
+  if (report && told < 1.0 && done == jobs.size()) {
+    report(1.0);  // Another thread answered the last job.
+  }
   return answers;
 }
 
