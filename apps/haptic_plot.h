@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,17 +14,20 @@
 
 namespace firstcontact::app {
 
-/// Gathers ticks in columns, of which each keeps its greatest values: no peak is lost.
+/// Gathers ticks in columns, of which each keeps its greatest values: no peak is lost. Columns
+/// become wider as time goes by.
 class HapticPlot {
  public:
-  /// @param duration  [s]
-  HapticPlot(std::size_t tools, double duration);
+  explicit HapticPlot(std::size_t tools) : tools_(tools) {}
 
   /// @param god_objects  where they are, one for each tool
   void add(const ForceTick& tick, std::int64_t begin_ns,
            const std::array<Pose, kMostTools>& god_objects);
 
-  [[nodiscard]] std::string draw(std::string_view title) const;
+  /// Draws from the first tick to the last one.
+  ///
+  /// @param undriven  as in HapticReport
+  [[nodiscard]] std::string draw(std::string_view title, const std::string& undriven) const;
 
  private:
   struct Column {
@@ -31,9 +35,14 @@ class HapticPlot {
     std::array<double, kMostTools> torque = {};  // [N m]
     std::array<double, kMostTools> apart = {};   // [m]  From target to god-object.
     double contacts = 0.0;
+
+    void take(const Column& other);
   };
+  Column& column_at(std::int64_t time_ns);
+
   std::size_t tools_;
-  double duration_;
+  std::int64_t column_ns_ = 250'000;  // > 0
+  std::int64_t end_ns_ = 0;
   std::vector<Column> columns_;
 };
 

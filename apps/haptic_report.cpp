@@ -1,6 +1,7 @@
 #include "haptic_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -57,14 +58,31 @@ std::string device_text(const Device& device) {
                      counts.malformed, problem.empty() ? "" : "; ", problem);
 }
 
+std::string undriven_text(const Device& device) {
+  const DeviceCapabilities& is = device.capabilities();
+  const auto drives = [](const std::array<bool, 3>& axes) {
+    return std::ranges::any_of(axes, [](bool axis) { return axis; });
+  };
+  const bool has_force = drives(is.driven.linear);
+  const bool has_torque = drives(is.driven.angular);
+  if (has_force && has_torque) {
+    return {};
+  }
+  return fmt::format("the {} drives {}", is.name.empty() ? "device" : is.name,
+                     has_force    ? "no torque"
+                     : has_torque ? "no force"
+                                  : "none of it");
+}
+
 void HapticReport::add(const ForceTick& tick, std::size_t tools) {
   ++ticks_;
   for (std::size_t k = 0; k < tools; ++k) {
     const ToolTick& tool = tick.tools[k];
-    force_ = std::max(force_, tool.command.force_D.norm());
-    torque_ = std::max(torque_, tool.command.torque_D.norm());
+    // Also what the device does not drive.
+    force_ = std::max(force_, tool.asked.force_D.norm());
+    torque_ = std::max(torque_, tool.asked.torque_D.norm());
     faults_ |= tool.faults;
-    for (const double effort : tool.command.grips) {
+    for (const double effort : tool.asked.grips) {
       effort_ = std::max(effort_, std::abs(effort));
     }
   }
@@ -81,6 +99,7 @@ void HapticReport::add(const HapticCycle& cycle) {
 }
 
 std::string HapticReport::text(const std::string& scene, bool is_stopped,
+                               const std::string& undriven,
                                const std::optional<WallSessionReport>& wall) const {
   std::string text = fmt::format("{}: {}\n", visible(scene),
                                  is_stopped     ? "stopped early"
@@ -88,11 +107,10 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
                                                 : "felt; no tool passed through anything");
   text += report_line(
       "ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", ticks_, cycles_));
-  text +=
-      report_line("apart", std::isfinite(clearance_) ? length_text(clearance_) + " or more, proven"
-                                                     : "no pair to keep apart");
+  text += report_line("apart", apart_text(clearance_));
   text += report_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
-  text += report_line("force", fmt::format("at most {:.4g} N and {:.4g} N m", force_, torque_));
+  text += report_line("force", fmt::format("at most {:.4g} N and {:.4g} N m{}{}", force_, torque_,
+                                           undriven.empty() ? "" : "; ", undriven));
   if (has_joints_) {
     text +=
         report_line("grips", fmt::format("at most {:.4g} J, as work from open to closed", effort_));

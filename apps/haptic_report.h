@@ -27,8 +27,10 @@ class HapticReport {
 
   /// The lines for the standard output.
   ///
+  /// @param undriven  "the mouse drives none of it", in which forces end; may be empty
   /// @param wall  none in virtual time
   [[nodiscard]] std::string text(const std::string& scene, bool is_stopped,
+                                 const std::string& undriven,
                                  const std::optional<WallSessionReport>& wall) const;
 
  private:
@@ -45,6 +47,9 @@ class HapticReport {
   double effort_ = 0.0;  // [J]  On a grip.
   bool has_joints_ = false;
 };
+
+/// "the mouse drives none of it", or "the inverse3 drives no torque"; empty where it drives both.
+[[nodiscard]] std::string undriven_text(const Device& device);
 
 /// Describes a device that a hand moved: its name, its samples, and why it is lost if it is.
 [[nodiscard]] std::string device_text(const Device& device);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptic_devices/browser_device.h>
@@ -145,7 +146,7 @@ class HapticsRun {
         named_(read_devices(arguments)),
         loaded_(load()),
         setup_(haptic_setup_of()),
-        plot_(setup_.scene.tools.size(), named_.duration) {
+        plot_(setup_.scene.tools.size()) {
     if (arguments.devices.size() != setup_.scene.tools.size()) {
       throw std::invalid_argument(
           fmt::format("{}: expected a --device for each tool, {} of them; got {}", arguments.scene,
@@ -363,7 +364,7 @@ class HapticsRun {
     ticks_->commit();
     cycles_->commit();
     if (drawing_->is_open()) {
-      drawing_->write(plot_.draw(arguments_.scene));
+      drawing_->write(plot_.draw(arguments_.scene, undriven()));
       drawing_->commit();
     }
     if (wall_) {
@@ -378,8 +379,23 @@ class HapticsRun {
     }
   }
 
+  /// What the devices that hands move do not drive.
+  [[nodiscard]] std::string undriven() const {
+    std::vector<std::string> texts;
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+      const std::string text =
+          is_live(named_.choices[k]) ? undriven_text(*devices_[k]) : std::string();
+      if (!text.empty() && std::ranges::find(texts, text) == texts.end()) {
+        texts.push_back(text);
+      }
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
   void print() const {
-    say(report_.text(arguments_.scene, is_stopped_, wall_));
+    const std::string scene =
+        arguments_.scene == kStdin ? std::string(kStdinName) : arguments_.scene;
+    say(report_.text(scene, is_stopped_, undriven(), wall_));
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       if (is_live(named_.choices[k])) {
         say(report_line("device", device_text(*devices_[k])));
@@ -390,6 +406,13 @@ class HapticsRun {
     }
     if (run_file_) {
       say(report_line("run", arguments_.run + "; `firstcontact verify` proves it again"));
+    }
+    if (page_) {
+      say(report_line("page",
+                      page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play"));
+    }
+    if (!arguments_.plot.empty()) {
+      say(report_line("plot", arguments_.plot));
     }
     flush_stdout();
   }

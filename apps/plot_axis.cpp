@@ -1,6 +1,8 @@
 #include "plot_axis.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace firstcontact::app {
 namespace {
@@ -31,6 +33,23 @@ PlotAxis make_axis(double greatest, Unit unit, AxisEnd end) {
     axis.ticks.push_back(k * step);
   }
   return axis;
+}
+
+std::string plot_title(std::string_view title, double width) {
+  constexpr double kWidest = 10.7;  // [px]  Of a letter, in the mean of capitals.
+  const auto is_begin = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  const auto most = static_cast<std::ptrdiff_t>(width / kWidest);
+  if (std::ranges::count_if(title, is_begin) <= most) {
+    return std::string(title);
+  }
+  std::size_t end = 0;
+  for (std::ptrdiff_t letters = 0; end < title.size(); ++end) {
+    letters += is_begin(title[end]) ? 1 : 0;
+    if (letters == most) {  // The ellipsis takes its place.
+      break;
+    }
+  }
+  return std::string(title.substr(0, end)) + "\u2026";
 }
 
 }  // namespace firstcontact::app

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "quantity_text.h"
@@ -20,5 +22,10 @@ enum class AxisEnd { at_greatest, at_tick };
 
 /// @param greatest  in SI units: what must fit; 0 gives an axis to 1
 [[nodiscard]] PlotAxis make_axis(double greatest, Unit unit, AxisEnd end);
+
+/// A title that fits into a plot; what is too long ends with an ellipsis.
+///
+/// @param width  [px]  of a bold text of 16 px
+[[nodiscard]] std::string plot_title(std::string_view title, double width);
 
 }  // namespace firstcontact::app

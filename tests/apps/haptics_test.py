@@ -230,7 +230,8 @@ class Haptics(tool_test.ToolTest):
         if not self.has_viewer():
             self.skipTest("built without the viewer")
         self.file("scene.json", scene())
-        process = self.start("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl", "--ticks", "ticks.csv")
+        process = self.start("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl", "--ticks", "ticks.csv",
+                             "--plot", "plot.svg")
         return process, int(re.match(r"http://127.0.0.1:(\d+)/ ", process.stdout.readline()).group(1))
 
     def test_follows_the_mouse_on_its_page(self):
@@ -258,6 +259,17 @@ class Haptics(tool_test.ToolTest):
         self.assertEqual(process.returncode, 3)
         self.assertRegex(stdout, rf"device +mouse 127.0.0.1:{port}: 2 samples, 0 missed, 1 malformed")
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+        # The mouse pushes nobody's hand, but what it would push with is known.
+        force = re.search(r"force +at most ([\d.]+) N and [\d.e-]+ N m; the mouse drives none of it\n", stdout)
+        self.assertGreater(float(force.group(1)), 4.9)
+        plot = (self.folder / "plot.svg").read_text(encoding="utf-8")
+        self.assertIn("force [N]; the mouse drives none of it", plot)
+        curve = re.search(r'points="([^"]*)"', plot).group(1).split()
+        self.assertGreater(len({point.split(",")[1] for point in curve}), 2)
+        self.assertGreater(float(curve[-1].split(",")[0]), 870.0)  # The panel ends with the session.
+        ticks = re.findall(r'text-anchor="middle">([\d.]+)</text>', plot)
+        unit = re.search(r"time \[(\w+)\]", plot).group(1)
+        self.assertLess(float(ticks[-1]) * {"s": 1.0, "ms": 1e-3}[unit], 40.0)  # Planned were 60 s.
 
     def test_gives_the_tool_to_its_own_page_only(self):
         process, port = self.live()

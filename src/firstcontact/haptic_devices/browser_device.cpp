@@ -104,7 +104,7 @@ struct BrowserDevice::Data {
     listener = detail::listen_local_tcp(options.port, port, problem);
     if (!listener.is_open()) {
       throw std::runtime_error("cannot serve a page at 127.0.0.1:" + std::to_string(options.port) +
-                               ": " + problem + "; name another port, or 0 for a free one");
+                               ": " + problem + "; name another port, or none for a free one");
     }
     capabilities.name = "mouse";
     capabilities.id = "127.0.0.1:" + std::to_string(port);

@@ -205,6 +205,7 @@ class ForceLoop::Implementation {
       set_share(tools_[k], seconds, tick_.tools[k].faults);
       give_force(k, projected.force, seconds);
       give_efforts(k, projected.force, seconds);
+      tick_.tools[k].asked = tick_.tools[k].command;
     }
     return tick_;
   }

@@ -88,8 +88,9 @@ struct ToolTick {
   Pose target;                                         ///< X_WB that the device asks for.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    At the target's origin.
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About it.
-  ForceCommand command = {};                           ///< The same for the device.
-  std::uint32_t faults = 0;                            ///< Bits of ForceFault.
+  ForceCommand asked = {};    ///< The same for the device, also what it does not drive.
+  ForceCommand command = {};  ///< That, cut in a wall session to what the device drives.
+  std::uint32_t faults = 0;   ///< Bits of ForceFault.
   std::array<double, kMostGrips> grips{};  ///< [-]  In force: of the device, or by buttons.
 };
 

@@ -138,7 +138,8 @@ class ForceThread {
   /// What is logged as the command is what the device can follow.
   static void limit(ToolTick& tool, const DeviceCapabilities& capabilities) noexcept {
     const ForceCommand allowed = limited(tool.command, capabilities);
-    if (allowed.force_D != tool.command.force_D || allowed.torque_D != tool.command.torque_D) {
+    if (allowed.force_D != tool.command.force_D || allowed.torque_D != tool.command.torque_D ||
+        allowed.grips != tool.command.grips) {
       tool.command = allowed;
       tool.faults |= static_cast<std::uint32_t>(ForceFault::limited);
     }
