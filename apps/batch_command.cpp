@@ -3,7 +3,9 @@
 #include <charconv>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene_files/check_lines.h>
@@ -69,6 +72,20 @@ struct Survey {
   std::string digest;      ///< Of the whole file.
 };
 
+/// @throws ParseError if the jobs are one scene that goes over several lines
+void require_lines(const std::string& jobs, const std::string& first) {
+  constexpr std::uintmax_t kMost = 1U << 26U;  // [bytes]  Larger files are no scenes of a person.
+  if (nlohmann::json::accept(first) || std::filesystem::file_size(jobs) > kMost) {
+    return;
+  }
+  std::ifstream file(jobs, std::ios::binary);
+  if (nlohmann::json::accept(file)) {
+    throw ParseError(jobs,
+                     "expected JSON Lines, a whole scene in each line, got one scene over several "
+                     "lines; `firstcontact check` answers it");
+  }
+}
+
 Survey survey(const std::string& jobs, const Shard& shard) {
   std::error_code error;
   const auto status = std::filesystem::status(jobs, error);
@@ -82,7 +99,9 @@ Survey survey(const std::string& jobs, const Shard& shard) {
   bool any = false;
   SceneLines lines(jobs);
   while (const std::optional<SceneLine> line = lines.next()) {
-    any = true;
+    if (!std::exchange(any, true)) {
+      require_lines(jobs, line->text);
+    }
     found.scenes += shard.has(line->number) ? 1 : 0;
   }
   if (!any) {

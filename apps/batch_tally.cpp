@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "quantity_text.h"
+
 namespace firstcontact::app {
 namespace {
 
@@ -53,7 +55,7 @@ std::string BatchTally::progress(double seconds) const {
                   percent, done_, total_);
   if (done_ > kept_) {
     const double left = static_cast<double>(total_ - done_) / rate(seconds);
-    text += fmt::format(", {:.3g} a second, {} left", rate(seconds), duration_text(left));
+    text += fmt::format(", {} a second, {} left", plain_number(rate(seconds)), duration_text(left));
   }
   return text;
 }
@@ -76,8 +78,8 @@ std::string BatchTally::summary(double seconds) const {
     text += fmt::format("\n{} of them by an earlier run", kept_);
   }
   if (done_ > kept_) {
-    text += fmt::format("\n{} in {}, {:.3g} a second", done_ - kept_, duration_text(seconds),
-                        rate(seconds));
+    text += fmt::format("\n{} in {}, {} a second", done_ - kept_, duration_text(seconds),
+                        plain_number(rate(seconds)));
   }
   if (!complete()) {
     text += "\ninterrupted; go on with --resume";

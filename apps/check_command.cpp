@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -184,6 +185,20 @@ class Check {
       const std::string result = result_text(answer, /*all_pairs=*/true, source.line);
       const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
       write_file(arguments_.page, write_page(page_, answer.loaded, result, {answer.curve, bound}));
+    }
+    if (!json_on_stdout()) {
+      say_written();
+    }
+  }
+
+  /// Once they are there.
+  void say_written() const {
+    for (const auto& [label, file] : {std::pair("plot", arguments_.plot),
+                                      {"table", arguments_.gap},
+                                      {"page", arguments_.page}}) {
+      if (!file.empty()) {
+        say(fmt::format("  {:<10} {}\n", label, visible(file)));
+      }
     }
   }
 

@@ -73,7 +73,9 @@ class Plot {
         R"(font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#333">)",
         kWidth, kHeight);
     print(R"(<rect width="{}" height="{}" fill="#fff"/>)", kWidth, kHeight);
-    text(kLeft, 24, "start", title, R"( font-size="16" font-weight="bold")");
+    print("<title>{}</title>", escaped(title));
+    text(kLeft, 24, "start", plot_title(title, kWidth - kLeft - kRight),
+         R"( font-size="16" font-weight="bold")");
     text(kLeft, 44, "start", describe_verdict(answer_), R"( fill="#555")");
     regions();
     lower_bound();

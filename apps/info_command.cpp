@@ -1,5 +1,8 @@
 #include "info_command.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -144,6 +147,23 @@ bool is_robot(const std::string& file) {
   return extension == ".urdf" || extension == ".URDF";
 }
 
+/// Other names are those of no mesh, cloud or robot.
+void require_mesh(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kMeshes{".obj", ".stl", ".ply", ".off", ".dae", ".glb", ".gltf"};
+  if (std::ranges::find(kMeshes, ending) == kMeshes.end()) {
+    throw ParseError(
+        file, fmt::format("expected a mesh (.obj, .stl, .ply, .off, .dae, .glb, .gltf), a cloud "
+                          "(.ply, .pcd, .xyz) or a robot (.urdf), got \"{}\"{}",
+                          ending,
+                          ending == ".json" || ending == ".jsonl"
+                              ? "; of a scene `firstcontact check --explain` says what is read"
+                              : ""));
+  }
+}
+
 struct InfoArguments {
   std::vector<std::string> files;
   std::vector<std::string> package_roots;
@@ -182,6 +202,7 @@ void inform(const std::string& file, const InfoArguments& arguments) {
     arguments.json ? fmt::print("{}", points_json(file, cloud))
                    : print(file, cloud.points, cloud.report);
   } else {
+    require_mesh(file);
     const MeshReading reading = read_mesh_file(file, arguments.reading());
     const MeshDefects found = inspect(reading.mesh);
     arguments.json ? fmt::print("{}", mesh_json(file, reading, found))

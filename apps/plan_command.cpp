@@ -240,8 +240,8 @@ class Plan {
       text = fmt::format("{}: {}\n", visible(source_),
                          path->is_proven ? "a path to the goal, proven edge by edge"
                                          : "approximate: proven, but it ends before a goal");
-      line("path", fmt::format("{} places, {} edges, length {:.6g}{}", path->waypoints.size(),
-                               path->clearances.size(), path->cost,
+      line("path", fmt::format("{}, {}, length {:.6g}{}", counted(path->waypoints.size(), "place"),
+                               counted(path->clearances.size(), "edge"), path->cost,
                                result.statistics.first_cost
                                    ? fmt::format(" ({:.6g} before it was shortened)",
                                                  *result.statistics.first_cost)
@@ -283,6 +283,12 @@ class Plan {
     }
     for (const std::string& warning : result.warnings) {
       line("warning", warning);
+    }
+    if (path && !arguments_.output.empty()) {
+      line("written", arguments_.output + "; `firstcontact verify` proves it again");
+    }
+    if (path && !arguments_.page.empty()) {
+      line("page", arguments_.page);
     }
     return text;
   }
@@ -365,7 +371,7 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(0, 1024));
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, not errors");
-  add_robot_options(*command, arguments->robot);
+  add_robot_options(*command, arguments->robot, RobotUse::plan);
   command->footer(kPlanFooter);
   command->callback([arguments, &status] {
     require_one_plan(*arguments);

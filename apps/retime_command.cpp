@@ -354,7 +354,7 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--threads", arguments->threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")
       ->check(CLI::Range(0, 1024));
-  add_robot_options(*command, arguments->robot);
+  add_robot_options(*command, arguments->robot, RobotUse::retime);
   command->footer(kFooter);
   command->callback([arguments, &status] {
     require_one_input(*arguments);

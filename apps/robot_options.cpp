@@ -24,11 +24,45 @@ RobotSurface surface_of(const RobotArguments& arguments) {
                                         : RobotSurface::collision;
 }
 
+/// The texts that differ by use.
+struct RobotTexts {
+  const char* robot;
+  const char* trajectory;
+  const char* request;
+  const char* start;
+};
+
+RobotTexts texts_for(RobotUse use) {
+  switch (use) {
+    case RobotUse::check:
+      break;
+    case RobotUse::plan:
+      return {"URDF: plans for this robot in place of a SCENE", "",
+              "MoveIt request (.yaml): from its start to its goal, which may be the pose of a link",
+              "With --goal, from there: state of the SRDF or JOINT=POSITION; repeatable"};
+    case RobotUse::retime:
+      return {"URDF: times the motion of this robot in place of a PATH",
+              "Its positions are the path, its times are left out: .csv (header: time and joint "
+              "names), .json, or .yaml as ROS prints a JointTrajectory",
+              "MoveIt request (.yaml): the path is straight from its start to its goal",
+              "With --goal, the path is straight from there: state of the SRDF or JOINT=POSITION; "
+              "repeatable"};
+  }
+  return {"URDF: checks this robot in place of a SCENE",
+          ".csv (header: time and joint names), .json, or .yaml as ROS prints a JointTrajectory",
+          "MoveIt request (.yaml): straight from its start to its goal",
+          "With --goal, straight from there as fast as the joints may: state of the SRDF or "
+          "JOINT=POSITION; repeatable"};
+}
+
 }  // namespace
 
-void add_robot_options(CLI::App& command, RobotArguments& arguments) {
+void add_robot_options(CLI::App& command, RobotArguments& arguments, RobotUse use) {
+  const RobotTexts texts = texts_for(use);
+  // Where a plan refuses them it says why, but its help does not offer them.
+  const char* const of_motion = use == RobotUse::plan ? "" : "Robot";
   const auto file = [&](const char* name, std::string& value, const char* text) {
-    add_file(command, name, value, text)->group("Robot");
+    return add_file(command, name, value, text)->group("Robot");
   };
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
                         const char* text) {
@@ -37,15 +71,11 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
         ->group("Robot")
         ->allow_extra_args(false);
   };
-  file("--robot", arguments.robot, "URDF: checks this robot in place of a SCENE");
+  file("--robot", arguments.robot, texts.robot);
   file("--srdf", arguments.srdf, "SRDF: pairs of links not to test, named states");
-  file("--trajectory", arguments.trajectory,
-       ".csv (header: time and joint names), .json, or .yaml as ROS prints a JointTrajectory");
-  file("--request", arguments.request,
-       "MoveIt request (.yaml): straight from its start to its goal");
-  list("--start", arguments.start, "STATE",
-       "With --goal, straight from there as fast as the joints may: state of the SRDF or "
-       "JOINT=POSITION; repeatable");
+  file("--trajectory", arguments.trajectory, texts.trajectory)->group(of_motion);
+  file("--request", arguments.request, texts.request);
+  list("--start", arguments.start, "STATE", texts.start);
   list("--goal", arguments.goal, "STATE", "As --start");
   list("--state", arguments.state, "STATE",
        "Where joints rest that the motion does not name: as --start; 0 by default");
@@ -55,12 +85,12 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
                   "Short is the default to a goal, as in MoveIt, long that of --trajectory")
       ->type_name("long|short")
       ->check(CLI::IsMember(std::vector<std::string>(kTurningWords.begin(), kTurningWords.end())))
-      ->group("Robot");
+      ->group(of_motion);
   command
       .add_flag(
           "--unwrap", arguments.unwrap,
           "With --trajectory: a recording whose angles wrap; takes its jumps of whole turns out")
-      ->group("Robot");
+      ->group(of_motion);
   list("--environment", arguments.environment, "FILE",
        "Mesh, MoveIt planning scene (.yaml), or scene (.json) without robots; repeatable");
   list("--package-root", arguments.package_roots, "FOLDER",

@@ -33,7 +33,12 @@ struct RobotArguments {
   bool unwrap = false;
 };
 
-void add_robot_options(CLI::App& command, RobotArguments& arguments);
+/// What the robot is for.
+enum class RobotUse { check, plan, retime };
+
+/// Adds the options with texts for their use. Those that a plan refuses are not listed by its help.
+void add_robot_options(CLI::App& command, RobotArguments& arguments,
+                       RobotUse use = RobotUse::check);
 
 /// All files that the arguments name.
 [[nodiscard]] std::vector<std::string> files_of(const RobotArguments& arguments);

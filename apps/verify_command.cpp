@@ -8,6 +8,7 @@
 #include <string>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
@@ -138,6 +139,20 @@ std::string told_kind(std::istream& stream, ProvableFile& kind) {
   return text;
 }
 
+/// @throws ParseError if the text is a scene, of which nothing is claimed yet
+void require_no_scene(const std::string& file, const std::string& text) {
+  const auto root = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!root.is_object() || !root.contains("firstcontact")) {
+    return;
+  }
+  const char* mend = root.contains("simulation") ? "simulate"
+                     : root.contains("plan")     ? "plan"
+                                                 : "check";
+  throw ParseError(file, fmt::format("expected a run, a result or a path, got a scene; first "
+                                     "`firstcontact {} {} -o FILE`, then verify FILE",
+                                     mend, file));
+}
+
 ExitStatus prove_run(const ProofArguments& arguments, std::istream& stream, Progress& progress,
                      const std::stop_token& stop) {
   RunReader run(stream, arguments.file, {.lenient = arguments.lenient});
@@ -177,6 +192,9 @@ ExitStatus verify(const ProofArguments& arguments) {
     }
     if (kind == ProvableFile::path) {
       return prove_path(arguments, text, progress, interrupt.token());
+    }
+    if (kind == ProvableFile::unknown) {
+      require_no_scene(arguments.file, text);
     }
     stream.clear();
     if (!stream.seekg(0)) {

@@ -143,6 +143,11 @@ class Answers(BatchTest):
             self.assertAlmostEqual(enter, truth[0], places=5)
             self.assertAlmostEqual(leave, truth[1], places=2)
 
+    def test_are_of_lines(self):
+        self.file("jobs.jsonl", json.dumps(json.loads(scenes.FREE), indent=2))
+        self.assert_refused_with(self.batch(), "jobs.jsonl: expected JSON Lines", "`firstcontact check`")
+        self.assertFalse((self.folder / "out.jsonl").exists())
+
     def test_name_the_bad_lines_and_do_the_rest(self):
         self.file("cut.obj", "v 0 0\n")
         mesh = scenes.scene({"name": "a", "shape": {"mesh": "cut.obj"}})

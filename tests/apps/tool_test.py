@@ -83,12 +83,36 @@ class CommandLine(ToolTest):
             self.assertIn("Usage: firstcontact", result.stdout)
             self.assertEqual(result.stderr, "")
 
+    def test_help_offers_what_the_command_takes(self):
+        helps = {command: self.run_tool(command, "--help").stdout for command in ("check", "plan", "retime")}
+        self.assertIn("--trajectory FILE", helps["check"])
+        self.assertIn("URDF: checks this robot", helps["check"])
+        for option in ("--trajectory", "--unwrap", "--turning"):
+            self.assertNotIn(f"  {option} ", helps["plan"])
+        self.assertIn("URDF: plans for this robot", helps["plan"])
+        self.assertIn("URDF: times the motion of this robot", helps["retime"])
+        self.assertIn("its times are left out", helps["retime"])
+        # What excludes another option says so in its text.
+        self.assertNotIn("Excludes", helps["check"])
+        self.assertRegex(helps["check"], r"--visual +Takes links as they look, not their collision geometry; not with "
+                                         r"--visual-where-missing\n")
+
+    def test_names_what_it_writes(self):
+        scene = self.file("s.json", scenes.FREE)
+        text = self.run_tool("check", scene, "--svg", "a.svg", "--gap", "a.csv").stdout
+        self.assertRegex(text, r"\n  plot       a.svg\n  table      a.csv\n$")
+
     def test_refuses_what_it_does_not_know(self):
         scene = self.file("scene.json", scenes.FREE)
         for arguments, message in [
                 ([], "A subcommand is required"),
-                (["chekc"], 'unknown command "chekc"'),
+                (["chekc"], 'unknown command "chekc"; did you mean "check"?'),
+                (["spin"], 'unknown command "spin"'),
                 (["check", scene, "--fast"], "The following argument was not expected: --fast"),
+                (["check", scene, "--maring", "1"],
+                 "The following argument was not expected: --maring; did you mean --margin?"),
+                (["check", scene, "--tolrance=1"],
+                 "The following argument was not expected: --tolrance=1; did you mean --tolerance?"),
                 (["check", scene, "--tolerance", "-1"], '--tolerance: expected a number > 0, got "-1"'),
                 (["check", scene, "--tolerance", "nan"], '--tolerance: expected a number > 0, got "nan"'),
                 (["check", scene, "--margin", "0,5"], '--margin: expected a number >= 0, got "0,5"'),
@@ -200,6 +224,11 @@ class Simulate(ToolTest):
         self.assertIn("time lost  none", done.stdout)
         verified = self.run_tool("verify", run)
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+
+    def test_says_that_there_is_no_pair(self):
+        done = self.run_in_shell("simulate - < " + self.scene({**self.SCENE, "bodies": [self.BALL]}))
+        self.assertTrue(done.stdout.startswith("standard input: simulated; no pair was looked at"), done)
+        self.assertIn("  apart      no pair to keep apart\n", done.stdout)
 
     def test_names_a_robot_that_waits_once(self):
         link = """<link name="{}"><collision><origin xyz="0 0 {}"/><geometry><box size="{}"/></geometry></collision></link>"""
@@ -403,9 +432,16 @@ $""")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(json.loads(result.stdout)["verdict"], "broken")
 
+    def test_says_what_comes_before_a_proof(self):
+        scene = self.file("s.json", json.dumps({**json.loads(scenes.FREE)}, indent=2))
+        self.assert_refused_with(self.run_tool("verify", scene), "s.json: expected a run, a result or a path, got a "
+                                 "scene; first `firstcontact check s.json -o FILE`, then verify FILE")
+        scene = self.file("s.json", Simulate.SCENE)
+        self.assert_refused_with(self.run_tool("verify", scene), "first `firstcontact simulate s.json")
+
     def test_refuses_what_is_no_run(self):
         self.assert_refused(self.run_tool("verify", "gone.jsonl"), "gone.jsonl: expected a run, a result or a path, cannot open this file")
-        self.assert_refused(self.run_tool("verify", self.file("scene.jsonl", scenes.FREE + "\n")),
+        self.assert_refused(self.run_tool("verify", self.file("scene.jsonl", '{"bodies": []}\n')),
                             'scene.jsonl:1: expected the header of a run, an object with "firstcontact_run": 1')
         self.steps[1]["lasted"] = None
         self.assert_refused(self.verify(), "run.jsonl:3: lasted: expected a number")
@@ -1244,6 +1280,13 @@ class Plot(ToolTest):
         self.assertIn("first contact at 250 ms", texts)
         self.assertEqual(len(list(root.iter("{http://www.w3.org/2000/svg}circle"))), 11)
 
+    def test_has_a_title_that_fits(self):
+        self.run_tool("check", "--svg", "gap.svg", self.file("s.json", {**json.loads(scenes.CONTACT), "id": "ä" * 300}))
+        root = xml.etree.ElementTree.parse(self.folder / "gap.svg").getroot()
+        title = next(root.iter("{http://www.w3.org/2000/svg}text")).text
+        self.assertRegex(title, "^ä{30,70}…$")
+        self.assertEqual(next(root.iter("{http://www.w3.org/2000/svg}title")).text, "ä" * 300)
+
     def test_is_a_table_with_a_proven_bound(self):
         self.run_tool("check", "--gap", "gap.csv", self.file("s.json", scenes.CONTACT))
         rows = (self.folder / "gap.csv").read_text().splitlines()
@@ -1378,6 +1421,11 @@ class Info(ToolTest):
                      "surface                not closed", "unused vertices        1",
                      "size                   2 m x 1 mm x 0 m"):
             self.assertIn(line, result.stdout)
+
+    def test_says_of_what_it_knows_files(self):
+        result = self.run_tool("info", self.file("s.json", scenes.FREE))
+        self.assert_refused_with(result, "s.json: expected a mesh (.obj, ", "a cloud (.ply, .pcd, .xyz)",
+                                 "a robot (.urdf), got \".json\"; of a scene `firstcontact check --explain`")
 
     def test_knows_a_cloud(self):
         header = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/math/export.h>
 #include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
@@ -72,8 +73,8 @@ class JsonReader {
 
 /// The word that takes the fewest changes of a letter to get to, or that begins with this one;
 /// empty if all are far off.
-[[nodiscard]] std::string_view nearest_word(std::string_view word,
-                                            const std::vector<std::string_view>& words);
+[[nodiscard]] FIRSTCONTACT_API std::string_view nearest_word(
+    std::string_view word, const std::vector<std::string_view>& words);
 
 /// "a, b, c"; "none" of no words.
 [[nodiscard]] std::string listed(const std::vector<std::string_view>& words);
