@@ -139,6 +139,14 @@ std::optional<std::filesystem::path> file_of_device(const std::string& word) {
   return word;
 }
 
+int grips_of_device(const DeviceMapping& mapping) {
+  int count = 0;
+  for (std::size_t k = 0; k < mapping.grips.size(); ++k) {
+    count = mapping.grips[k].button < 0 ? static_cast<int>(k) + 1 : count;
+  }
+  return count;
+}
+
 std::unique_ptr<Device> open_device(const DeviceChoice& choice,
                                     const SimulatedOperatorOptions& hand) {
   struct Open {

@@ -15,6 +15,7 @@
 #include <firstcontact/haptic_devices/recording.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
 #include <firstcontact/haptic_devices/space_mouse.h>
+#include <firstcontact/haptics/force_loop.h>
 
 namespace firstcontact::app {
 
@@ -42,6 +43,9 @@ using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptio
 
 /// The file that a word names; none where it names no file.
 [[nodiscard]] std::optional<std::filesystem::path> file_of_device(const std::string& word);
+
+/// The values of grips that a device has to sense: up to the last that no button closes.
+[[nodiscard]] int grips_of_device(const DeviceMapping& mapping);
 
 /// Opens the device.
 ///

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <firstcontact/geometry/shape_bounds.h>
@@ -109,15 +108,6 @@ NamedDevices read_devices(const Arguments& arguments) {
   }
   named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
   return named;
-}
-
-/// The values of grips that a device has to sense: up to the last that no button closes.
-int grips_of_device(const DeviceMapping& mapping) {
-  int count = 0;
-  for (std::size_t k = 0; k < mapping.grips.size(); ++k) {
-    count = mapping.grips[k].button < 0 ? static_cast<int>(k) + 1 : count;
-  }
-  return count;
 }
 
 /// A hand that knows nothing of the scene: it wants to be anywhere around the tool.
