@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/record/write_run.h>
+#include <firstcontact/simulation_model/detail/sim_tie.h>
 
 #include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
@@ -131,6 +133,37 @@ TEST(Tie, StrongDampersTakeEnergyAlone) {
       const double right = 10.0 / c * std::exp(-rate);
       EXPECT_NEAR(s.states()[0].X_WB.position.x() - 0.5, right, 0.05 * right) << c;
     }
+  }
+}
+
+// The energy over one row is that of its docstring, to rounding.
+TEST(Tie, SpringRowsLoseWhatTheirDampersTake) {
+  std::mt19937 random(7);
+  const auto power = [&] {
+    return std::pow(10.0, std::uniform_real_distribution<double>(-3.0, 6.0)(random));
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const detail::SimTie tie{.stiffness = power(), .damping = i % 3 == 0 ? 0.0 : power()};
+    const double span = 0.01;
+    const double m = power();
+    const double v = std::normal_distribution<double>()(random);
+    const double x = 0.01 * std::normal_distribution<double>()(random);
+    const detail::SpringRow row = detail::spring_row(tie,
+                                                     {.begin = x,
+                                                      .flight = x + span * v,
+                                                      .speed_at_begin = v,
+                                                      .speed_of_flight = v,
+                                                      .inverse_mass = 1.0 / m},
+                                                     span);
+    const double r = (row.target - v) / (row.compliance + 1.0 / m);
+    const double u = v + r / m;
+    const double way = span * ((1.0 - row.weight) * v + row.weight * u);
+    const double before = 0.5 * m * v * v + 0.5 * tie.stiffness * x * x;
+    const double after = 0.5 * m * u * u + 0.5 * tie.stiffness * (x + way) * (x + way);
+    const double taken = tie.damping * way * way / span +
+                         (row.weight - 0.5) * (r * r / m + tie.stiffness * way * way);
+    ASSERT_NEAR(after - before, -taken, 1e-10 * before) << i;
+    ASSERT_GE(taken, 0.0) << i;
   }
 }
 

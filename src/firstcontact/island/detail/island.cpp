@@ -297,7 +297,12 @@ class Island {
     const std::optional<Momenta> momenta = momenta_ahead(state_, touches, planned_, t);
     state_.robots.move_to(plan.robots, t, planned_, to);
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      state_.states[k] = state_ahead(plan, k, t);
+      state_.states[k] = state_ahead(state_, plan, k, t);
+      if (state_.member(k).link_body) {  // Its pose is on a chord, its velocity that of its robot.
+        const ContactBody body = state_.robots.body(k);
+        state_.states[k].v_WC = body.v;
+        state_.states[k].w_WB = body.w;
+      }
     }
     if (momenta && t > 0.0) {
       take_momenta(*momenta, state_);
@@ -306,25 +311,6 @@ class Island {
       const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
       track_.pieces[k].push_back({to, begin[k].X_WB, move, begin[k], state_.states[k]});
     }
-  }
-
-  /// Of a member, after a share t of a plan for which its robot has moved.
-  [[nodiscard]] RigidState state_ahead(const Plan& plan, std::size_t k, double t) const {
-    const RigidState& begin = state_.states[k];
-    RigidState end;
-    end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
-    end.X_WB.rotation.normalize();
-    if (state_.member(k).link_body) {
-      const ContactBody body = state_.robots.body(k);
-      end.v_WC = body.v;
-      end.w_WB = body.w;
-      return end;
-    }
-    end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
-    end.w_WB =
-        turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
-                     t * plan.moves[k].rotation_vector);
-    return end;
   }
 
   /// Makes the touches of a plan those of the step, with what acted before. What acted on pairs

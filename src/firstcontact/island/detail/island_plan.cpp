@@ -16,6 +16,21 @@
 namespace firstcontact::detail {
 using Eigen::Vector3d;
 
+RigidState state_ahead(const IslandState& state, const Plan& plan, std::size_t member,
+                       double share) {
+  const SimBody& body = state.member(member);
+  const RigidState& begin = state.states[member];
+  const Move& move = plan.moves[member];
+  const ContactBody& end = plan.at_end[member];
+  RigidState ahead;
+  ahead.X_WB = motion_of(body, begin.X_WB, move).pose(share);
+  ahead.X_WB.rotation.normalize();
+  ahead.v_WC = begin.v_WC + share * (end.v - begin.v_WC);
+  ahead.w_WB = turned_along(body.inertia, begin.w_WB + share * (end.w - begin.w_WB),
+                            share * move.rotation_vector);
+  return ahead;
+}
+
 IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   FreeFlight flight;
   flight.at_end = bodies_.bodies();

@@ -79,6 +79,10 @@ struct Plan {
   [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };
 
+/// How a member that is no link body moves, a share of a plan ahead.
+[[nodiscard]] RigidState state_ahead(const IslandState& state, const Plan& plan, std::size_t member,
+                                     double share);
+
 /// Makes plans from where an island is now, each with more or tighter constraints than the one
 /// before.
 class IslandPlanner {

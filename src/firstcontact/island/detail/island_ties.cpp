@@ -276,8 +276,7 @@ bool is_pulled(const SimulationModel& model, const StepStart& start,
     return false;
   }
   const auto moves = [&](const TieEnd& end) {
-    return end.body && (start.scripted[*end.body].translation.any() ||
-                        start.scripted[*end.body].rotation_vector.any());
+    return end.body && !start.scripted[*end.body].is_none();
   };
   return std::ranges::any_of(members, [&](std::size_t member) {
     return std::ranges::any_of(model.ties_of[member], [&](std::size_t t) {

@@ -64,10 +64,10 @@ void add_outer_of_ties(const ContactProblem& problem, const ContactSolution& sol
 /// [-]  How far a plan may be followed before a cable that does not stretch becomes taut.
 [[nodiscard]] double share_within_cables(IslandState& state, const Plan& plan, double span);
 
-/// Whether joints are farther apart where a plan ends than a contact distance, or cables longer.
+/// Whether joints are farther apart where a plan ends than a contact distance, or taut cables
+/// longer by one.
 ///
-/// Nothing that can be met does that: a script pulls at what cannot follow, or a loop that is
-/// singular has no solution.
+/// They are where a script pulls at what cannot follow, and where a singular loop has no solution.
 [[nodiscard]] bool tears_ties(IslandState& state, const Plan& plan, double span);
 
 /// Whether a scripted body that moves in the step is tied to one of these.

@@ -19,8 +19,8 @@ struct Momenta {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About that point.
 };
 
-/// Of an island of bodies and floating robots, a share of a plan ahead; nothing where bodies around
-/// it or locked axes act on it, or a robot is held.
+/// Predicts the momenta of an island a share of a plan ahead. It has no value where bodies around
+/// the island or locked axes act on it, or where a robot of it is held.
 ///
 /// Impulses of contacts and ties are internal then, so only gravity and given forces change them.
 ///

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 /// [m]  How far its script moves a point of a body in the step; nothing where it does not.
 std::optional<Vector3d> scripted_way(IslandState& state, std::size_t body, const Vector3d& point) {
   const Move& move = state.start.scripted[body];
-  if (!move.translation.any() && !move.rotation_vector.any()) {
+  if (move.is_none()) {
     return std::nullopt;
   }
   const Vector3d arm =

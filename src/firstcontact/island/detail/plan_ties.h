@@ -170,7 +170,6 @@ class PlanTies {
   double span_;
   std::vector<Acting> acting_ = {};
   std::vector<LinkForce> link_forces_ = {};
-  std::vector<bool> pulled_ = {};                       // Of each member: a tie acts on it.
   std::vector<Eigen::VectorXd> shifts_of_robots_ = {};  // In the flights of the last rows.
 };
 

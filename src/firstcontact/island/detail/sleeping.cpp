@@ -50,8 +50,6 @@ bool changes(const TimedForce& force, const StepStart& start) {
   return is_within(force.from) || is_within(force.to);
 }
 
-bool moves(const Move& move) { return move.translation.any() || move.rotation_vector.any(); }
-
 /// Whether anything scripted that moves in the step may get near the body.
 bool is_disturbed(const SimulationModel& model, const StepStart& start, const Obstacles& around,
                   std::size_t body) {
@@ -59,7 +57,8 @@ bool is_disturbed(const SimulationModel& model, const StepStart& start, const Ob
   const AlignedBox3d box =
       widened(swept_box(model.bodies[body], start.states[body].X_WB, {}), reach);
   bool found = false;
-  around.for_each_overlap(box, [&](std::size_t b) { found = found || moves(start.scripted[b]); });
+  around.for_each_overlap(box,
+                          [&](std::size_t b) { found = found || !start.scripted[b].is_none(); });
   return found;
 }
 

@@ -8,9 +8,9 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/island/detail/island_plan.h>
 #include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
-#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -23,20 +23,12 @@ struct Energy {
   double slack = 0.0;      // [J]  What a contact distance of height is.
 };
 
-bool is_moved(const IslandState& state, const SimTie& tie) {
-  return std::ranges::any_of(tie.ends, [&](const TieEnd& end) {
-    return end.body && (state.start.scripted[*end.body].translation.any() ||
-                        state.start.scripted[*end.body].rotation_vector.any());
-  });
-}
-
 /// Whether only gravity acts, and joints whose other ends rest.
 bool is_conservative(const IslandState& state, const Plan& plan, const ContactSolution& solution) {
-  const auto is_resting_joint = [&](std::size_t t) {
-    return state.model.ties[t].is_joint() && !is_moved(state, state.model.ties[t]);
-  };
+  const auto is_joint = [&](std::size_t t) { return state.model.ties[t].is_joint(); };
   const auto is_none = [](const Vector3d& impulse) { return impulse.isZero(0.0); };
-  return !state.ties.empty() && std::ranges::all_of(state.ties, is_resting_joint) &&
+  return !state.ties.empty() && std::ranges::all_of(state.ties, is_joint) &&
+         !is_pulled(state.model, state.start, state.members) &&
          std::ranges::all_of(solution.impulses, is_none) && state.robots.are_passive(plan.robots) &&
          std::ranges::all_of(state.members, [&](std::size_t body) {
            return state.model.bodies[body].forces.empty();
@@ -48,13 +40,6 @@ void add(const IslandState& state, const SimBody& body, const RigidState& moving
   energy.kinetic += kinetic_energy(body.inertia, moving);
   energy.potential -= body.inertia.mass * g.dot(centre_of_mass(body.inertia, moving.X_WB));
   energy.slack += body.inertia.mass * g.norm() * state.model.distances.least;
-}
-
-RigidState state_at_end(const IslandState& state, const Plan& plan, std::size_t k) {
-  const Inertia& inertia = state.member(k).inertia;
-  const Move& move = plan.moves[k];
-  return {motion_of(state.member(k), state.states[k].X_WB, move).pose(1.0), plan.at_end[k].v,
-          turned_along(inertia, plan.at_end[k].w, move.rotation_vector)};
 }
 
 }  // namespace
@@ -69,7 +54,7 @@ bool keeps_tied_energy(const IslandState& state, const Plan& plan, const Contact
   for (std::size_t k = 0; k < state.size(); ++k) {
     if (!state.member(k).link_body) {
       add(state, state.member(k), state.states[k], now);
-      add(state, state.member(k), state_at_end(state, plan, k), end);
+      add(state, state.member(k), state_ahead(state, plan, k, 1.0), end);
     }
   }
   for (std::size_t r = 0; r < state.robots.size(); ++r) {

@@ -224,7 +224,7 @@ class IslandRobots {
   /// Whether no joint takes or gives energy, now and where plans end.
   [[nodiscard]] bool are_passive(const std::vector<RobotPlan>& plans) const;
 
-  /// Of a robot now, or in another state.
+  /// The energy and the momenta of a robot now, or in another state.
   [[nodiscard]] MechanismMechanics mechanics(std::size_t robot) const;
   [[nodiscard]] MechanismMechanics mechanics(std::size_t robot, const MechanismState& state) const;
 

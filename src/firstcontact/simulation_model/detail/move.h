@@ -18,6 +18,7 @@ struct Move {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Of C.
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]
 
+  [[nodiscard]] bool is_none() const { return !translation.any() && !rotation_vector.any(); }
   [[nodiscard]] Move part(double share) const {
     return {share * translation, share * rotation_vector};
   }

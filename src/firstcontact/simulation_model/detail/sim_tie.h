@@ -89,7 +89,7 @@ struct SpringWay {
 struct SpringRow {
   double target = 0.0;
   double compliance = 0.0;
-  double weight = 0.5;  ///< [-]  Of the end of the span. It leads bodies as far as r moves them.
+  double weight = 0.5;  ///< [-]  Of the end of the span.
 };
 
 /// The row of a spring over a span.
@@ -97,9 +97,11 @@ struct SpringRow {
 /// It pulls with the weighted means of its extensions and of its velocities at both ends. Without
 /// a damper the weights are equal: the trapezoidal rule, which keeps the energy. A damper has the
 /// weight of fitted_weight(). Springs that swing by more than one radian of their phase in a span
-/// are damped, as steps cannot follow them. What an impulse r changes of a velocity leads by the
-/// same weight w. So the energy never grows: beside what the damper takes the rule loses
-/// (w - 1/2) (r^2 inverse_mass + stiffness way^2).
+/// are damped, as steps cannot follow them.
+///
+/// The velocity at the end leads bodies along the row with the same weight w. So the energy never
+/// grows, but for rounding: where no other force acts it changes over a way by
+/// -damping way^2 / span - (w - 1/2) (r^2 inverse_mass + stiffness way^2).
 ///
 /// @param span  [s]
 [[nodiscard]] SpringRow spring_row(const SimTie& tie, const SpringWay& way, double span);
