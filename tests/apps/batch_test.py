@@ -17,10 +17,6 @@ import unittest
 import scenes
 import tool_test
 
-# Then the tool is slow; fewer answers show as well how it comes by them.
-SANITIZED = os.environ.get("FIRSTCONTACT_SANITIZED") == "1"
-
-
 def spinning(name: str, angle: float, gap: float) -> str:
     """A tip that passes a wall once a turn; many turns take a few milliseconds."""
     wall = {"vertices": [[1, -9, -9], [1, 9, -9], [1, 0, 9]], "triangles": [[0, 1, 2]]}
@@ -50,7 +46,7 @@ class BatchTest(tool_test.ToolTest):
         return self.results("whole.jsonl")
 
 
-@unittest.skipIf(SANITIZED, "sanitizers take address space of their own")
+@tool_test.NEEDS_BOUNDED_MEMORY
 class Memory(BatchTest):
     """Of a line that needs more than there is."""
 
@@ -111,7 +107,8 @@ class Memory(BatchTest):
 
 class Answers(BatchTest):
     def test_are_those_of_check_for_every_number_of_threads(self):
-        count = 20 if SANITIZED else 60
+        # Fewer answers of a slow tool show as well how it comes by them.
+        count = 20 if tool_test.SANITIZED else 60
         jobs = self.file("jobs.jsonl", some_jobs(count))
         expected = self.run_tool("check", jobs).stdout.encode()
         self.assertEqual(len(expected.splitlines()), count)

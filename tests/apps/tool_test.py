@@ -24,6 +24,12 @@ import scenes
 
 TOOL = ""
 
+# Then the tool is slow.
+SANITIZED = os.environ.get("FIRSTCONTACT_SANITIZED") == "1"
+
+# For what runs the tool in a bounded address space.
+NEEDS_BOUNDED_MEMORY = unittest.skipIf(SANITIZED, "sanitizers take address space of their own")
+
 
 class ToolTest(unittest.TestCase):
     def setUp(self):
@@ -194,6 +200,7 @@ class Contacts(ToolTest):
         self.assertIn(f"contacts   9 of {count} feature pairs\n", self.check("--contacts", "9").stdout)
         self.assertIn("contacts   1000 of more than 262144 feature pairs\n", self.check(cells=30).stdout)
 
+    @NEEDS_BOUNDED_MEMORY
     def test_take_no_memory_that_nobody_needs(self):
         # All of them, as they were found and as a tree of JSON, would be some GB.
         self.file("plates.json", scenes.plates(40))
