@@ -13,6 +13,7 @@
 #include <firstcontact/geometry/mesh_defects.h>
 
 #include "support/rational.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -64,7 +65,7 @@ std::vector<Vector3d> random_points(std::mt19937_64& rng, std::size_t count) {
 
 TEST(ConvexHull, EnclosesRandomPoints) {
   std::mt19937_64 rng(1);
-  for (std::size_t count = 4; count < 60; ++count) {
+  for (std::size_t count = 4; count < 60; count += test::rounds(1, 5)) {
     expect_hull(random_points(rng, count), std::to_string(count));
   }
 }
@@ -72,7 +73,7 @@ TEST(ConvexHull, EnclosesRandomPoints) {
 // Every degeneracy at once: many points in planes, on lines and at one place.
 TEST(ConvexHull, EnclosesPointsOfAGrid) {
   std::mt19937_64 rng(2);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::rounds(60, 16); ++i) {
     std::vector<Vector3d> points = random_points(rng, 60);
     const double cells = 1.0 + i % 4;
     for (Vector3d& p : points) {

@@ -204,7 +204,7 @@ TEST(Reduction, KeepsItsAngleWithAndWithoutFriction) {
       for (const bool edges : {false, true}) {
         const std::vector<Vector6d> few = unit_rows(kept, edges);
         const std::vector<Vector6d> rows = unit_rows(contacts, edges);
-        for (std::size_t k = 0; k < rows.size(); k += test::rounds(1, 10)) {
+        for (std::size_t k = 0; k < rows.size(); k += test::rounds(1, 40)) {
           const double sine = leave(few, rows[k]);
           EXPECT_LE(sine, std::sin(reduced.angle) + 1e-6) << angle << ' ' << trial << ' ' << edges;
           tightest = std::max(tightest, sine / std::sin(angle));

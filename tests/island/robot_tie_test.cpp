@@ -16,6 +16,7 @@
 
 #include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -110,7 +111,7 @@ TEST_F(RobotTie, FourBarStaysClosedAndKeepsItsEnergy) {
   const double before = -(0.5 + 1.5) * 9.81 * 0.3 * std::cos(1.0);
   double apart = 0.0;
   double off = 0.0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::rounds(1000, 200); ++i) {
     const RunStep step = s.step().value();
     ASSERT_EQ(step.time_lost, 0.0);
     const auto& q = s.robot_states()[0].positions;
@@ -154,7 +155,7 @@ TEST_F(RobotTie, LoopGainsNothingWhereItIsSingular) {
                           "velocities": {"j1": 3, "j2": -3, "j3": 3}})",
                        tie_settings(h, kClosing, false));
     const double before = energy_of(s.step().value());
-    for (std::size_t i = 0; i < steps_until(5.0, h); ++i) {
+    for (std::size_t i = 0; i < steps_until(test::rounds(5, 2), h); ++i) {
       ASSERT_LE(energy_of(s.step().value()), before * 1.02) << h << " " << i;
     }
   }

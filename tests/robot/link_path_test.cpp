@@ -293,7 +293,7 @@ struct Excess {
 Excess excess_of_speed(const ChainOptions& options, double travel) {
   LinkScratch scratch;
   Excess excess;
-  constexpr int kCases = 40;
+  constexpr int kCases = rounds(40, 12);
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     WindowCase w = random_window(seed, options, travel);
     w.box.radius = 0.0;  // The corners are all there is.

@@ -15,6 +15,7 @@
 #include "robot/chain_case.h"
 #include "robot/planar_arm.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -75,7 +76,7 @@ Departure departure(std::uint64_t seed) {
 }
 
 TEST(LinkPairMotion, NoPointDepartsFromTheModelByMoreThanSaid) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(300, 60); ++seed) {
     ASSERT_LE(departure(seed).worst_excess, 0.0) << seed;
   }
 }
@@ -83,7 +84,7 @@ TEST(LinkPairMotion, NoPointDepartsFromTheModelByMoreThanSaid) {
 /// The twin: a bound of infinity would pass the test above.
 TEST(LinkPairMotion, SaysNotMuchMoreThanWhatPointsDepart) {
   double mean = 0.0;
-  constexpr int kCases = 100;
+  constexpr int kCases = test::rounds(100, 40);
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     mean += departure(seed).share / kCases;
   }

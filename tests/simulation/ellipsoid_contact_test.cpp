@@ -190,7 +190,7 @@ TEST(EllipsoidContacts, AreAsNearAsTheExactBodies) {
     const Motion b = Motion::fixed(X_B);
     return distance({A.exact, a}, {B.exact, b}, 0.0, workspace).distance;
   };
-  for (int k = 0; k < test::rounds(50, 10); ++k) {
+  for (int k = 0; k < test::rounds(50, 5); ++k) {
     const Other egg = egg_of(any_radii(0.03, 0.1, random), 2e-4);
     const std::array<Other, 5> others{plain(make_box({0.2, 0.15, 0.1})), plain(make_sphere(0.05)),
                                       plain(make_capsule(0.03, 0.1)),
@@ -285,7 +285,7 @@ TEST(Ellipsoids, RollOnWithoutResistance) {
           "pose": {"position": [0, -1, 0.0504]}, "dynamics": {"linear_velocity": [0, 0.5, 0],
           "angular_velocity": [-10, 0, 0]}})",
       test::settings(0.01, 0.8, 1e-4));
-  const std::vector<RunStep> steps = test::run(s, test::rounds(300, 120));
+  const std::vector<RunStep> steps = test::run(s, test::rounds(300, 60));
   const double begin = steps[49].bodies[0].linear_velocity.y();
   EXPECT_NEAR(steps.back().bodies[0].linear_velocity.y(), begin, 1e-4 * begin);
   const RunVerification proof = test::verify(s.header(), steps);

@@ -6,6 +6,7 @@
 #include "support/exact_motion.h"
 #include "support/first_contact_oracle.h"
 #include "support/generated_case.h"
+#include "support/rounds.h"
 
 namespace firstcontact::oracle {
 namespace {
@@ -155,7 +156,7 @@ TEST(ExactMotion, InterpolatesItsPoses) {
 /// Windows, directions and roundings all differ when the bodies change places.
 TEST(FirstContactOracle, AgreesWithItselfWhenSwapped) {
   for (int f = 0; f < kFamilyCount; ++f) {
-    for (std::uint64_t i = 2'000'000; i < 2'000'003; ++i) {
+    for (std::uint64_t i = 2'000'000; i < 2'000'000 + test::rounds(3, 1); ++i) {
       const GeneratedCase c = generate(static_cast<Family>(f), i);
       const Truth truth = ask(c.A, c.B, c.margin);
       const Truth swapped = ask(c.B, c.A, c.margin);
@@ -169,7 +170,7 @@ TEST(FirstContactOracle, AgreesWithItselfWhenSwapped) {
 /// No sample may contradict what the oracle proved.
 TEST(FirstContactOracle, AgreesWithSamplesOfGeneratedCases) {
   for (int f = 0; f < kFamilyCount; ++f) {
-    for (std::uint64_t i = 1'000'000; i < 1'000'004; ++i) {
+    for (std::uint64_t i = 1'000'000; i < 1'000'000 + test::rounds(4, 1); ++i) {
       const GeneratedCase c = generate(static_cast<Family>(f), i);
       FirstContactOracle oracle(c.A, c.B, c.margin);
       const Truth truth = oracle.first_contact();
