@@ -240,13 +240,14 @@ def disc_on_its_rim(tool, step):
 def ring_on_a_pin(tool, step):
     """The part of its swing that a ring of 180 corners loses in 1 s, which hangs on a pin without friction."""
     upright = [math.sqrt(0.5), math.sqrt(0.5), 0, 0]
-    away, lean = 0.48 * math.cos(math.pi / 180) - 0.02 - 6e-5, math.pi / 3
+    near = 1e-6  # [m]
+    away, lean = 0.48 * math.cos(math.pi / 180) - 0.02 - near, math.pi / 3
     run = simulate(tool, scene([
         body("pin", {"capsule": {"radius": 0.02, "length": 0.5}}, quaternion_wxyz=upright),
         body("ring", tube(180, 0.48, 0.52, 0.05), (away * math.sin(lean), 0, -away * math.cos(lean)),
              quaternion_wxyz=upright, dynamics={
                  "locked_translation": [False, True, False], "locked_rotation": [True, False, True]})],
-        1.0, step, contact_distance=1e-5))
+        1.0, step, contact_distance=near))
     energies = run.energies()
     return max(abs(e - energies[0]) for e in energies) / max(step["kinetic_energy"] for step in run.steps)
 
