@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +162,61 @@ TEST(SurfaceNeighbours, FacesAndLonePointsHaveNone) {
   const Shape cube = make_box({1.0, 1.0, 1.0});
   EXPECT_TRUE(
       SurfaceNeighbours(cube, 0.0).is_outermost({FeatureType::face, 0, 0}, Vector3d::UnitX()));
+}
+
+/// A floor of 2 by 2 squares of 1 m, whose last corner is raised.
+Shape floor_of_squares(double raised) {
+  Mesh mesh;
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y) {
+      mesh.vertices.emplace_back(x, y, x == 2 && y == 2 ? raised : 0.0);
+    }
+  }
+  for (std::uint32_t x = 0; x < 2; ++x) {
+    for (std::uint32_t y = 0; y < 2; ++y) {
+      const std::uint32_t a = 3 * x + y;
+      mesh.triangles.push_back({a, a + 3, a + 1});
+      mesh.triangles.push_back({a + 1, a + 3, a + 4});
+    }
+  }
+  return Shape(std::move(mesh));
+}
+
+TEST(SurfaceNeighbours, KnowHowFarAFlatFaceGoesOn) {
+  const Shape flat = floor_of_squares(0.0);
+  const SurfaceNeighbours of_flat(flat, 0.0);
+  EXPECT_EQ(of_flat.flat_around(vertex(4)), 1.0);
+  EXPECT_EQ(of_flat.flat_around(vertex(0)), 0.0);  // On the rim.
+  EXPECT_NEAR(of_flat.flat_around(edge(flat, 1, 4)), std::sqrt(0.5) * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(of_flat.flat_around(edge(flat, 0, 1)), 0.0);
+  const Shape bent = floor_of_squares(0.1);
+  const SurfaceNeighbours of_bent(bent, 0.0);
+  EXPECT_EQ(of_bent.flat_around(edge(bent, 5, 7)), 0.0);
+  EXPECT_EQ(of_bent.flat_around(vertex(4)), 1.0);  // The last triangle does not meet it.
+}
+
+TEST(SurfaceNeighbours, NumberAllTrianglesOfAFlatFaceAlike) {
+  const auto surface = [](const SurfaceNeighbours& of, std::uint32_t triangle) {
+    return of.surface_index({FeatureType::face, triangle, triangle});
+  };
+  const Shape bent = floor_of_squares(0.1);
+  const SurfaceNeighbours of_bent(bent, 0.0);
+  for (std::uint32_t t = 0; t < 7; ++t) {
+    EXPECT_EQ(surface(of_bent, t), 0U) << t;
+  }
+  EXPECT_EQ(surface(of_bent, 7), 7U);
+  const Shape cube = make_box({1.0, 1.0, 1.0});
+  const SurfaceNeighbours of_cube(cube, 0.0);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t t = 0; t < 12; ++t) {
+    found.push_back(surface(of_cube, t));
+    const std::uint32_t first = found.back();
+    EXPECT_EQ(surface(of_cube, first), first);
+  }
+  std::ranges::sort(found);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  EXPECT_EQ(found.size(), 6U);
+  EXPECT_EQ(of_cube.surface_index(vertex(3)), 3U);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ ManifoldPoint touch(const BodyPair& bodies, std::uint32_t vertex, double x, doub
   return {.bodies = bodies,
           .feature_A = {FeatureType::face, 0, 0},
           .feature_B = {FeatureType::vertex, vertex, 0},
+          .surface = {0, vertex},
           .point = {x, 0.0, 0.0},
           .impulse = {0.0, 0.0, impulse}};
 }

@@ -90,5 +90,48 @@ TEST(Rolling, SlidingBallEndsWithFiveSevenths) {
   }
 }
 
+/// A flat floor of 20 by 20 squares of 0.2 m, each cut in two.
+std::string cut_floor() {
+  std::string vertices;
+  std::string triangles;
+  const auto add = [](std::string& list, const std::vector<double>& row) {
+    list += (list.empty() ? "" : ", ") + numbers(row);
+  };
+  for (int x = 0; x <= 20; ++x) {
+    for (int y = 0; y <= 20; ++y) {
+      add(vertices, {-2.0 + 0.2 * x, -2.0 + 0.2 * y, 0.0});
+    }
+  }
+  for (int x = 0; x < 20; ++x) {
+    for (int y = 0; y < 20; ++y) {
+      const double a = 21 * x + y;
+      add(triangles, {a, a + 21, a + 1});
+      add(triangles, {a + 1, a + 21, a + 22});
+    }
+  }
+  return body("floor", R"({"vertices": [)" + vertices + R"(], "triangles": [)" + triangles + "]}",
+              "[0, 0, 0]");
+}
+
+// It fell about an edge for a step where it was just above it.
+TEST(Sliding, ABallDoesNotFeelHowItsFloorIsCut) {
+  const std::string floor = cut_floor();
+  for (const double distance : {1e-3, 1e-4}) {
+    for (const double step : {0.01, 0.005, 0.0025}) {
+      for (const Vector3d& v : {Vector3d(1.0, 0.3, 0.0), Vector3d(1.0, 0.0, 0.0),
+                                Vector3d(0.7, -0.7, 0.0), Vector3d(-0.4, 1.1, 0.0)}) {
+        Simulator s = simulator(
+            floor + ", " +
+                body("ball", ball("0.1"), numbers({-0.1, -0.05, 0.1 + 0.5 * distance}),
+                     R"(, "dynamics": {"linear_velocity": )" + numbers({v.x(), v.y(), 0.0}) + "}"),
+            settings(step, 0.0, distance));
+        for (const RunStep& at : run(s, static_cast<std::size_t>(std::lround(0.8 / step)))) {
+          ASSERT_LE((at.bodies[0].linear_velocity - v).norm(), 1e-6) << step << " " << at.time;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -46,6 +46,21 @@ TEST(SpinningContact, ATopPrecessesAsLagrangeHasIt) {
   }
 }
 
+// Where a face is cut into triangles is no matter: not even where the tip crosses a cut.
+TEST(SpinningContact, ATopDoesNotFeelHowItsFloorIsCut) {
+  const Top top{.moments = {6e-4, 6e-4, 3e-4}, .spin = 90.0};
+  const auto place = [&](const std::string& floor) {
+    Simulator s =
+        simulator(floor + ", " + test::top_body(top, 1e-5), settings(0.005, top.friction, 1e-5));
+    return run(s, 100).back().bodies[0].X_WB.position;
+  };
+  const Vector3d on_floor = place(test::kFloor);
+  for (const std::string shift : {"[0.3, -0.5, -0.5]", "[0.001, 0.003, -0.5]"}) {
+    const Vector3d found = place(test::body("floor", test::box("[9, 9, 1]"), shift));
+    EXPECT_LE((found - on_floor).norm(), 1e-7) << shift;
+  }
+}
+
 // Of no symmetry, though it does not lift off: the energy and the angular momentum about z are
 // constant.
 TEST(SpinningContact, AnUnevenTopKeepsEnergyAndMomentum) {

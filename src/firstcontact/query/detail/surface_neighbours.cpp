@@ -1,6 +1,8 @@
 #include <firstcontact/query/detail/surface_neighbours.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -73,6 +75,61 @@ SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) {
   for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
     is_flat_.push_back(are_flat(edges_.of(e)));
   }
+  find_flat_vertices(shape);
+  find_flat_faces(shape);
+}
+
+void SurfaceNeighbours::find_flat_vertices(const Shape& shape) {
+  for (std::uint32_t v = 0; v < shape.mesh().vertices.size(); ++v) {
+    is_flat_vertex_.push_back(!vertices_.of(v).empty());
+  }
+  for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
+    for (const std::uint32_t end : shape.edge(e)) {
+      is_flat_vertex_[end] = is_flat_vertex_[end] && is_flat_[e];
+    }
+  }
+}
+
+void SurfaceNeighbours::find_flat_faces(const Shape& shape) {
+  const std::vector<std::array<std::uint32_t, 3>>& triangles = shape.mesh().triangles;
+  flat_face_.resize(triangles.size());
+  std::iota(flat_face_.begin(), flat_face_.end(), 0U);
+  const auto first_of = [&](std::uint32_t t) {
+    while (flat_face_[t] != t) {
+      t = flat_face_[t] = flat_face_[flat_face_[t]];
+    }
+    return t;
+  };
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> beside(shape.edge_count(), kNone);  // The first triangle of each edge.
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[t][k];
+      const std::uint32_t b = triangles[t][(k + 1) % 3];
+      if (a == b) {
+        continue;
+      }
+      const std::uint32_t e = shape.edge_index(a, b);
+      if (is_flat_[e] && beside[e] != kNone) {
+        const auto [least, other] = std::minmax({first_of(beside[e]), first_of(t)});
+        flat_face_[other] = least;
+      }
+      beside[e] = t;
+    }
+  }
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    flat_face_[t] = first_of(t);
+  }
+}
+
+double SurfaceNeighbours::flat_around(const Feature& feature) const {
+  if (!is_flat_edge(feature) &&
+      !(feature.type == FeatureType::vertex && is_flat_vertex_[feature.index])) {
+    return 0.0;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for_each_offset(feature, [&](const Vector3d& offset) { least = std::min(least, offset.norm()); });
+  return least;
 }
 
 bool SurfaceNeighbours::none_is_farther(std::span<const Offset> offsets,

@@ -36,6 +36,15 @@ class SurfaceNeighbours {
     return feature.type == FeatureType::edge && is_flat_[feature.index];
   }
 
+  /// [m]  How far around an edge or a vertex the surface is surely one flat face; 0: it bends
+  /// there.
+  [[nodiscard]] double flat_around(const Feature& feature) const;
+
+  /// The index of a feature, but one index for all triangles of a flat face.
+  [[nodiscard]] std::uint32_t surface_index(const Feature& feature) const {
+    return feature.type == FeatureType::face ? flat_face_[feature.index] : feature.index;
+  }
+
   /// Calls use(vector) for the offsets [m] from an edge or a vertex to the ends of its neighbours.
   template <class Use>
   void for_each_offset(const Feature& feature, const Use& use) const {
@@ -63,8 +72,12 @@ class SurfaceNeighbours {
     }
   };
   static bool none_is_farther(std::span<const Offset> offsets, const Eigen::Vector3d& direction_B);
+  void find_flat_vertices(const Shape& shape);
+  void find_flat_faces(const Shape& shape);
 
-  std::vector<bool> is_flat_;  // Of each edge.
+  std::vector<bool> is_flat_;             // Of each edge.
+  std::vector<bool> is_flat_vertex_;      // Whether all edges of each vertex are.
+  std::vector<std::uint32_t> flat_face_;  // Of each triangle the first one of its flat face.
   OffsetRows edges_;
   OffsetRows vertices_;
 };

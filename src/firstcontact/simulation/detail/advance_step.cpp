@@ -142,12 +142,17 @@ class StepAdvance {
 
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
   [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
+    const auto surface = [this](std::size_t body, const Feature& feature) {
+      return model_.neighbours[body]->surface_index(feature);
+    };
     std::vector<ManifoldPoint> touches;
     touches.reserve(state_.contacts.size());
     for (const RunContact& contact : state_.contacts) {
       touches.push_back({.bodies = contact.bodies,
                          .feature_A = contact.feature_A,
                          .feature_B = contact.feature_B,
+                         .surface = {surface(contact.bodies[0], contact.feature_A),
+                                     surface(contact.bodies[1], contact.feature_B)},
                          .point = contact.point,
                          .normal = contact.normal,
                          .impulse = contact.impulse});

@@ -17,6 +17,7 @@
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
+#include <firstcontact/simulation_model/detail/flat_contact.h>
 #include <firstcontact/simulation_model/detail/round_contact.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -29,8 +30,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kUsualTouches = 4;
 
 auto features_of(const ManifoldPoint& touch) {
-  return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
-                    touch.feature_B.index);
+  return std::tuple(touch.feature_A.type, touch.surface[0], touch.feature_B.type, touch.surface[1]);
 }
 
 /// Finds what touches in place of what touched before, among the touches of a pair.
@@ -144,6 +144,8 @@ struct TouchMaker {
       : bodies(pair), margin(its_margin), most_sag(most_sag_of(model, pair)) {
     for (std::size_t s = 0; s < 2; ++s) {
       const SimBody& body = model.bodies[pair[s]];
+      surfaces[s] = {
+          .shape = &body.shape, .neighbours = model.neighbours[pair[s]].get(), .pose = poses[s]};
       placed[s] = {.shape = &body.shape,
                    .circles = model.round_circles[pair[s]].get(),
                    .ellipsoid = body.ellipsoid ? &*body.ellipsoid : nullptr,
@@ -152,6 +154,7 @@ struct TouchMaker {
   }
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
+    lay_on_face(surfaces, contact);
     std::array<RoundFeature, 2> round = make_ellipsoidal(placed, most_sag, contact);
     if (!round[0].is_curved() && !round[1].is_curved()) {
       round = make_round(placed, most_sag, contact);
@@ -159,6 +162,8 @@ struct TouchMaker {
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,
+            .surface = {surfaces[0].neighbours->surface_index(contact.feature_A),
+                        surfaces[1].neighbours->surface_index(contact.feature_B)},
             .point = 0.5 * (contact.p_WA + contact.p_WB),
             .normal = *contact.n_AB_W,
             .gap = contact.distance - margin,
@@ -176,6 +181,7 @@ struct TouchMaker {
   BodyPair bodies;
   double margin;    // [m]
   double most_sag;  // [m]
+  std::array<PlacedSurface, 2> surfaces;
   std::array<PlacedRound, 2> placed;
 };
 
@@ -288,8 +294,7 @@ std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const 
 }  // namespace
 
 bool same_features(const ManifoldPoint& x, const ManifoldPoint& y) {
-  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
-         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+  return features_of(x) == features_of(y);
 }
 
 bool share_curve(const ManifoldPoint& x, const ManifoldPoint& y) {

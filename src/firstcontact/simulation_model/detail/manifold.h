@@ -24,6 +24,7 @@ struct ManifoldPoint {
   BodyPair bodies = {};
   Feature feature_A;
   Feature feature_B;
+  std::array<std::uint32_t, 2> surface = {};        ///< SurfaceNeighbours::surface_index of both.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
@@ -35,6 +36,7 @@ struct ManifoldPoint {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 
+/// All triangles of a flat face are one feature.
 [[nodiscard]] bool same_features(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// Whether both are on one circle, or one ellipsoid, of one of the bodies.
