@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -131,6 +132,63 @@ Drift drift(const Mechanism& mechanism, const MechanismState& begin, const Vecto
                    before.potential_energy),
           (after.linear_momentum - before.linear_momentum).norm(),
           (after.angular_momentum - before.angular_momentum).norm()};
+}
+
+/// Links of 0.5 m that turn about y, the last one of another mass; inertias as of slender rods.
+RobotModel rope(std::size_t links, double last_mass) {
+  RobotDescription robot{.name = "rope"};
+  robot.links.push_back({.name = "l0"});
+  for (std::size_t k = 1; k <= links; ++k) {
+    const double mass = k == links ? last_mass : 1.0;
+    robot.links.push_back(
+        {.name = "l" + std::to_string(k),
+         .inertia = LinkInertia{.mass = mass,
+                                .p_LC = {0.0, 0.0, -0.25},
+                                .about_C_L = Vector3d(0.02, 0.02, 0.002).asDiagonal() * mass}});
+    Joint joint{.name = "j" + std::to_string(k), .type = JointType::continuous};
+    joint.parent = "l" + std::to_string(k - 1);
+    joint.child = "l" + std::to_string(k);
+    joint.X_PJ = {{0.0, 0.0, k == 1 ? 0.0 : -0.5}, Eigen::Quaterniond::Identity()};
+    joint.axis = {0.0, 1.0, 0.0};
+    robot.joints.push_back(joint);
+  }
+  return RobotModel(std::move(robot));
+}
+
+// Light links turn by radians in no time as they snap through a line. Sub-steps by the speed from
+// before gained up to 1e12 J there.
+TEST(Mechanism, LightLinksThatCarryAHeavyOneKeepTheEnergy) {
+  for (const std::size_t links : {2U, 3U, 5U}) {
+    for (const double mass : {10.0, 100.0, 1e3, 1e4}) {
+      const Mechanism mechanism(rope(links, mass), {}, false);
+      MechanismState state = mechanism.rest();
+      state.positions[0] = 1.2;
+      state.positions[1] = 1.0;
+      const MechanismMechanics begin = mechanism.mechanics(state, kDown);
+      double most = 0.0;
+      double off = 0.0;
+      for (int k = 0; k < 150; ++k) {
+        state = mechanism.after_free_motion(state, kDown, 0.01);
+        const MechanismMechanics now = mechanism.mechanics(state, kDown);
+        most = std::max(most, now.kinetic_energy);
+        off = std::max(
+            off, std::abs(now.kinetic_energy + now.potential_energy - begin.potential_energy));
+      }
+      EXPECT_LE(off, 5e-4 * most) << links << " links, " << mass << " kg";
+    }
+  }
+}
+
+// A torque that is large beside the inertia turns a link that rests by radians in one step.
+TEST(Mechanism, AStrongTorqueTurnsAsItShould) {
+  const Mechanism mechanism(rope(1, 1.0), {}, false);
+  const double moment = 0.02 + 0.25 * 0.25;
+  MechanismDrive drive;
+  drive.forces = VectorXd::Constant(1, 500.0);
+  const MechanismMotion motion =
+      mechanism.after_driven_motion(mechanism.rest(), Vector3d::Zero(), drive, 0.05);
+  EXPECT_NEAR(motion.end.positions[0], 0.5 * 500.0 / moment * 0.05 * 0.05, 1e-9);
+  EXPECT_NEAR(motion.end.velocities[0], 500.0 / moment * 0.05, 1e-9);
 }
 
 // Wrong bias forces or a wrong mass matrix of any joint type would change the energy at once.

@@ -178,6 +178,8 @@ class FIRSTCONTACT_API Mechanism {
 
   void lay_out(bool free_base);
   void require_inertias() const;
+  class Flight;
+
   [[nodiscard]] Eigen::VectorXd rates(const Eigen::VectorXd& displacement,
                                       const Eigen::VectorXd& velocities) const;
   void place(const MechanismState& state, std::size_t link, MechanismInstant& instant) const;
