@@ -440,6 +440,34 @@ TEST_F(RobotLaws, KeepMomentaWhereARobotPressesOnItself) {
   }
 }
 
+// A motor that nothing bounds presses one arm on the other, against its limit. It caught up what it
+// was behind within the shortest plans: 1e9 J came from that.
+TEST_F(RobotLaws, CatchUpInAStepWhatJamsKeptFromMotors) {
+  const std::string limits = R"(<limit lower="-2" upper="2" effort="0" velocity="0"/>)";
+  const std::string arms =
+      massive("body", 2.0, "0 0 0", {0.02, 0.03, 0.04}, "0.2 0.2 0.2") +
+      massive("a", 0.5, "0 0 -0.2", {0.006, 0.006, 0.001}, "0.05 0.05 0.3") +
+      massive("b", 0.5, "0 0 -0.2", {0.006, 0.006, 0.001}, "0.05 0.05 0.3") +
+      massive("c", 0.3, "0 0 -0.15", {0.003, 0.003, 0.001}, "0.05 0.05 0.2") +
+      connected("j1", "revolute", "body", "a", "0 1 0", "0.1 0 -0.12", limits) +
+      connected("j2", "revolute", "body", "b", "0 1 0", "-0.1 0 -0.12", limits) +
+      connected("j3", "revolute", "a", "c", "1 0 0", "0 0 -0.4", limits);
+  for (const double h : {0.005, 0.0025}) {
+    Simulator s = made(arms,
+                       R"("dynamics": {"base": "free", "linear_velocity": [0.3, 0, 0],
+                            "angular_velocity": [0.5, 1, 2], "velocities": {"j1": 3, "j2": -2, "j3": 1},
+                            "motors": {"j1": {"position": [[0, 0], [0.5, 1.5], [2, -1]]},
+                                       "j3": {"position": [[0, 0], [2, 1]]}}})",
+                       R"("gravity": [0, 0, 0], "step": )" + number_text(h));
+    const auto steps = test::run(s, static_cast<std::size_t>(std::round(0.9 / h)));
+    for (const RunStep& step : steps) {
+      ASSERT_LE(step.kinetic_energy, 5.0) << h << " " << step.index;
+      ASSERT_EQ(step.time_lost, 0.0) << h << " " << step.index;
+    }
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << h;
+  }
+}
+
 TEST_F(RobotLaws, KeepMomentaWhereFrictionHoldsARobotAgainstItself) {
   for (const double step : {0.01, 0.0025}) {
     Simulator s = made(torso(true), R"("dynamics": {"base": "free",

@@ -514,6 +514,25 @@ TEST_F(SimulateRobots, AFreeBaseFallsAndKeepsItsMomentum) {
   EXPECT_NEAR(energy(steps.back()), energy(steps[0]), 1e-3 * steps[0].kinetic_energy);
 }
 
+TEST_F(SimulateRobots, RefusesStatesBeyondLimits) {
+  const std::string urdf =
+      robot_of(link("body", 2.0, "0 0 0", "<box size=\"0.3 0.2 0.1\"/>") +
+               link("arm", 0.5, "0 0 0.3", "<box size=\"0.1 0.1 0.1\"/>") +
+               joint("hinge", "revolute", "body", "arm", "0 1 0", "0 0 0.1",
+                     R"(<limit lower="-2" upper="2" effort="0" velocity="9"/>)"));
+  Simulator s = simulator(scene(urdf, R"("dynamics": {"base": "fixed"})", "", ""));
+  MechanismState state = s.robot_states()[0];
+  for (const double inside : {-2.0, 0.5, 2.0, 2.0005}) {  // What a simulation gives way, too.
+    state.positions[0] = inside;
+    EXPECT_NO_THROW(s.set_robot_state(0, state)) << inside;
+  }
+  for (const double beyond : {3.0, -2.1}) {
+    state.positions[0] = beyond;
+    EXPECT_THROW(s.set_robot_state(0, state), std::invalid_argument) << beyond;
+  }
+  EXPECT_EQ(s.robot_states()[0].positions[0], 2.0005);
+}
+
 TEST_F(SimulateRobots, TakesStatesFromOutside) {
   const std::string urdf = robot_of(link("body", 2.0, "0 0 0", "<box size=\"0.3 0.2 0.1\"/>") +
                                     link("head", 0.5, "0 0 0.3", "<box size=\"0.1 0.1 0.1\"/>") +

@@ -364,7 +364,8 @@ void bind_state(py::class_<HeldSimulator>& type) {
           R"(Puts a robot with dynamics elsewhere, or gives it other velocities; what is left out stays.
 
 robot: its number among them. positions, velocities: rows as in `robot_positions`. ValueError where
-their sizes are wrong, a quaternion is zero or a link would meet something: then nothing is changed.)")
+their sizes are wrong, a quaternion is zero, a joint would be beyond its limits or a link would meet
+something: then nothing is changed.)")
       .def("set_state", &set_state, py::arg("body"), py::kw_only(),
            py::arg("position") = py::none(), py::arg("quaternion_wxyz") = py::none(),
            py::arg("linear_velocity") = py::none(), py::arg("angular_velocity") = py::none(),

@@ -33,7 +33,9 @@ constexpr double kMostWay = 2.0 * kSubStep;  // [rad or m]
 constexpr double kMostApart = 1e-3;
 /// [rad/s or m/s]  What rounds.
 constexpr double kRoundedApart = 1e-12;
-constexpr int kMostHalvings = 12;  // Of a sub-step.
+/// Sub-steps that are halved in a motion: in a jam no number of them follows what nothing yields
+/// to.
+constexpr int kMostHalved = 256;
 
 /// Accelerations and the forces on driven coordinates.
 struct Response {
@@ -101,15 +103,16 @@ class Mechanism::Flight {
 
   /// Goes on by a time, in parts where a rule of this order does not follow the motion: light links
   /// that carry a heavy one turn by radians in a hundredth of the time that their speed tells.
-  void advance(double time, int halvings) {
+  void advance(double time) {
     const Step step = make_step(time);
-    if (halvings == 0 || step.is_followed) {
+    if (step.is_followed || halved_ == kMostHalved) {
       motion_.end = step.end;
       motion_.impulses += step.impulses;
       return;
     }
-    advance(0.5 * time, halvings - 1);
-    advance(0.5 * time, halvings - 1);
+    ++halved_;
+    advance(0.5 * time);
+    advance(0.5 * time);
   }
 
  private:
@@ -169,6 +172,7 @@ class Mechanism::Flight {
   const Vector3d& gravity_;
   const MechanismDrive& drive_;
   MechanismMotion& motion_;
+  int halved_ = 0;
 };
 
 MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, const Vector3d& gravity,
@@ -185,7 +189,7 @@ MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, cons
   MechanismMotion motion{state, VectorXd::Zero(static_cast<Index>(drive.driven.size()))};
   Flight flight(*this, gravity, drive, motion);
   for (int k = 0; k < count; ++k) {
-    flight.advance(dt / count, kMostHalvings);
+    flight.advance(dt / count);
   }
   return motion;
 }

@@ -27,6 +27,7 @@
 
 namespace firstcontact {
 
+using detail::beyond_limits;
 using detail::BodyKind;
 using detail::is_rotation;
 using detail::SimBody;
@@ -139,7 +140,10 @@ class Simulator::Implementation {
                                   " with dynamics");
     }
     const Mechanism& mechanism = model_.robots[robot].mechanism;
-    const std::string wrong = wrong_state(mechanism, state);
+    std::string wrong = wrong_state(mechanism, state);
+    if (wrong.empty()) {
+      wrong = beyond_limits(model_.robots[robot], state.positions);
+    }
     if (!wrong.empty()) {
       throw std::invalid_argument("set_robot_state: " + wrong);
     }

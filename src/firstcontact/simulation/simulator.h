@@ -76,8 +76,8 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// @param robot  among those that have dynamics
   /// @throws std::invalid_argument if the sizes are not those of the robot, a number is not finite,
-  ///         a quaternion is zero, a link would meet a body, or a tie would be torn: then nothing
-  ///         is changed
+  ///         a quaternion is zero, a joint would be beyond its limits, a link would meet a body, or
+  ///         a tie would be torn: then nothing is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
   /// Adds a force and a torque to those on a free body or a link body, for the next step alone.

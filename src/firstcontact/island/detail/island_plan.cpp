@@ -304,8 +304,7 @@ Plan IslandPlanner::plan() {
   ties_.add_changes(solution.ties, changes);
   ties_.add_all(solution.ties, outer);
   made.ties = ties_.impulses(solution.ties);
-  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes,
-                                   state_.start.time + state_.reached, span_);
+  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes, plan_span());
   shift_robots(made);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   if (leads_nowhere(made)) {

@@ -144,6 +144,7 @@ class IslandPlanner {
   [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
+  [[nodiscard]] PlanSpan plan_span() const;
   void make_flights();
   void set_robots();
   [[nodiscard]] std::vector<Eigen::VectorXd> loads_on_robots();

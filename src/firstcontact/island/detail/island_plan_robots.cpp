@@ -78,6 +78,13 @@ bool IslandPlanner::is_link_body(std::size_t place) const {
   return place < state_.size() && state_.member(place).link_body;
 }
 
+PlanSpan IslandPlanner::plan_span() const {
+  const double step = state_.start.h;
+  return {.from = state_.start.time + state_.reached,
+          .length = span_,
+          .catch_up = std::max(step - state_.reached, kLeastShareOfPlan * step)};
+}
+
 void IslandPlanner::fly_robots() {
   make_flights();
   set_robots();
@@ -92,7 +99,7 @@ void IslandPlanner::make_flights() {
       flight.is_known = false;
     }
   }
-  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, loads, flights_);
+  state_.robots.fly(plan_span(), robots_by_end_, loads, flights_);
   for (std::size_t r = 0; r < flights_.size() && loads_; ++r) {
     if (loads_->acts[r]) {
       flights_[r].of_contacts = state_.robots.change_by(r, loads_->on_links, flights_[r]);
@@ -109,8 +116,8 @@ void IslandPlanner::set_robots() {
 
 /// Flies robots anew where that has to be. Returns whether there were any.
 bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
-  std::vector<bool> led = state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end,
-                                                   state_.start.time + state_.reached, span_);
+  std::vector<bool> led =
+      state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end, plan_span());
   for (std::size_t r = 0; r < led.size(); ++r) {
     led[r] = led[r] || robots_by_end_[r];
   }

@@ -205,7 +205,7 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
   return flight;
 }
 
-void IslandRobots::fly(double from, double span, const std::vector<bool>& by_end,
+void IslandRobots::fly(const PlanSpan& span, const std::vector<bool>& by_end,
                        const std::vector<VectorXd>& loads,
                        std::vector<RobotFlight>& flights) const {
   flights.resize(robots_.size());
@@ -214,7 +214,7 @@ void IslandRobots::fly(double from, double span, const std::vector<bool>& by_end
     const bool wanted = by_end[r] && robots_[r].robot->is_driven();
     if (!flights[r].is_known || flights[r].by_end != wanted) {
       const VectorXd& load = loads.empty() ? none : loads[r];
-      flights[r] = wanted ? flight_by_end(r, {from, span}, load) : flight_of(r, {from, span}, load);
+      flights[r] = wanted ? flight_by_end(r, span, load) : flight_of(r, span, load);
     }
   }
 }

@@ -247,8 +247,8 @@ VectorXd IslandRobots::placement(std::size_t r, const RobotFlight& flight,
 std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
                                            const ContactSolution& solution,
                                            const std::vector<RobotFlight>& flights,
-                                           const std::vector<bool>& by_end, double from,
-                                           double span) const {
+                                           const std::vector<bool>& by_end,
+                                           const PlanSpan& span) const {
   std::vector<bool> led(robots_.size(), false);
   std::vector<bool> touches(robots_.size(), false);
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
@@ -275,7 +275,7 @@ std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
     if (!led[r] && touches[r]) {
       const VectorXd& v = solution.mechanisms[r];
       const VectorXd way =
-          placement(r, flights[r], drives, v, mean_positions(r, flights[r], v, span), {from, span});
+          placement(r, flights[r], drives, v, mean_positions(r, flights[r], v, span.length), span);
       led[r] =
           way.size() > 0 && way.cwiseAbs().maxCoeff() > kUnseenPlacement * model_.distances.least;
     }
@@ -287,8 +287,8 @@ std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
                                           const ContactSolution& solution,
                                           const std::vector<RobotFlight>& flights,
                                           const std::vector<bool>& by_end,
-                                          const std::vector<OuterImpulse>& outer, double from,
-                                          double span) const {
+                                          const std::vector<OuterImpulse>& outer,
+                                          const PlanSpan& span) const {
   std::vector<RobotPlan> plans;
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
@@ -298,14 +298,15 @@ std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
     const bool end_leads = std::ranges::any_of(
         robot.links, [&](const LinkMember& piece) { return by_end[piece.member]; });
     const VectorXd changed = v - flight.end.velocities;
-    VectorXd positions = flight.by_end ? mechanism.moved(flight.end.positions, span * changed)
-                         : end_leads   ? mechanism.moved(robot.state.positions, span * v)
-                                       : mean_positions(r, flight, v, span);
+    VectorXd positions = flight.by_end
+                             ? mechanism.moved(flight.end.positions, span.length * changed)
+                         : end_leads ? mechanism.moved(robot.state.positions, span.length * v)
+                                     : mean_positions(r, flight, v, span.length);
     const VectorXd velocities =
         changed.isZero(0.0) ? v : mechanism.carried({flight.end.positions, v}, positions);
     if (!flight.by_end && !flight.drives.empty()) {
-      positions = mechanism.moved(positions, placement(r, flight, drives_of(r, problem, solution),
-                                                       v, positions, {from, span}));
+      positions = mechanism.moved(
+          positions, placement(r, flight, drives_of(r, problem, solution), v, positions, span));
     }
     VectorXd motors = impulses_of(r, robot.robot->motor_count(), problem, solution);
     for (std::size_t k = 0; k < robot.robot->motor_count(); ++k) {

@@ -143,10 +143,9 @@ class IslandRobots {
 
   /// Finds the flights over a span that are not known, or not of the kind that is wanted.
   ///
-  /// @param from    [s]  since the simulation began
   /// @param by_end  of each robot: what drives its joints makes velocities at the end lead it
   /// @param loads   (size)  [N m or N]  constant forces along its coordinates; empty: none
-  void fly(double from, double span, const std::vector<bool>& by_end,
+  void fly(const PlanSpan& span, const std::vector<bool>& by_end,
            const std::vector<Eigen::VectorXd>& loads, std::vector<RobotFlight>& flights) const;
 
   /// [N m or N]  The forces along the coordinates of a robot that loads on its links are, halfway
@@ -183,8 +182,8 @@ class IslandRobots {
   [[nodiscard]] std::vector<bool> led_by_end(const ContactProblem& problem,
                                              const ContactSolution& solution,
                                              const std::vector<RobotFlight>& flights,
-                                             const std::vector<bool>& by_end, double from,
-                                             double span) const;
+                                             const std::vector<bool>& by_end,
+                                             const PlanSpan& span) const;
 
   void add_drives_at_impact(ContactProblem& problem) const;
 
@@ -201,8 +200,8 @@ class IslandRobots {
                                             const ContactSolution& solution,
                                             const std::vector<RobotFlight>& flights,
                                             const std::vector<bool>& by_end,
-                                            const std::vector<OuterImpulse>& outer, double from,
-                                            double span) const;
+                                            const std::vector<OuterImpulse>& outer,
+                                            const PlanSpan& span) const;
 
   /// Gives robots with a free base the momenta that gravity and impulses from outside make of
   /// theirs. Where none of these acts, their centres of mass get where such momenta lead.

@@ -87,7 +87,19 @@ JointDrive torque_drive(const JointLaw& law, const PlanSpan& span) {
   return {.least = impulse, .greatest = impulse};
 }
 
-JointDrive motor_by_end(const JointLaw& law, double q, const PlanSpan& span) {
+/// [rad or m]  Where a motor is led from a position.
+double caught_up(const JointLaw& law, double q, const PlanSpan& span) {
+  const double to = target_at(law, span.to()).number;
+  if (span.length >= span.catch_up) {
+    return to;
+  }
+  const double from = target_at(law, span.from).number;
+  return q + (to - from) + span.length / span.catch_up * (from - q);
+}
+
+/// @param q       [rad or m]  at the begin
+/// @param origin  [rad or m]  at the end q is origin + length u
+JointDrive motor_by_end(const JointLaw& law, double q, double origin, const PlanSpan& span) {
   const JointMotor& motor = *law.motor;
   const double bound = greatest_impulse(law, span.length);
   JointDrive drive{.least = -bound, .greatest = bound};
@@ -95,15 +107,16 @@ JointDrive motor_by_end(const JointLaw& law, double q, const PlanSpan& span) {
     case JointMotor::Kind::torque:
       return torque_drive(law, span);
     case JointMotor::Kind::velocity:
-      drive.target = within_limits(law, number_at(motor.target, span.to()), q, span.length);
+      drive.target = within_limits(law, number_at(motor.target, span.to()), origin, span.length);
       break;
     case JointMotor::Kind::position: {
-      const double to = target_at(law, span.to()).number;
-      const double missing = to - q;
       if (!motor.stiffness) {
-        drive.target = within_limits(law, missing / span.length, q, span.length);
+        const double way = caught_up(law, q, span) - origin;
+        drive.target = within_limits(law, way / span.length, origin, span.length);
         break;
       }
+      const double to = target_at(law, span.to()).number;
+      const double missing = to - origin;
       // r = span (k (missing - span u) + d (rate - u))
       const double rate = (to - target_at(law, span.from).number) / span.length;
       const double answer = span.length * *motor.stiffness + motor.damping;
@@ -132,7 +145,7 @@ Coordinate coordinate_of(const JointLaw& law, const MechanismState& state,
 /// [rad or m]  Where a motor without spring leads in a span.
 double goal(const JointLaw& law, double q, const PlanSpan& span) {
   if (law.motor->kind == JointMotor::Kind::position) {
-    return within(law.limits, target_at(law, span.to()).number);
+    return within(law.limits, caught_up(law, q, span));
   }
   const double way = 0.5 * span.length *
                      (number_at(law.motor->target, span.from + kJustBefore * span.length) +
@@ -339,7 +352,7 @@ std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
   };
   for (const JointLaw& law : laws) {
     if (law.motor) {
-      add(law, motor_by_end(law, origin[law.position], span));
+      add(law, motor_by_end(law, state.positions[law.position], origin[law.position], span));
     }
   }
   const double h = span.length;

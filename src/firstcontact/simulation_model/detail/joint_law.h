@@ -33,6 +33,9 @@ struct JointLaw {
 struct PlanSpan {
   double from = 0.0;    ///< [s]  Since the simulation began.
   double length = 0.0;  ///< [s]  > 0
+  /// [s]  In which motors catch up what they are behind their targets. In the plans of a jam, which
+  /// are short, they would be as fast as numbers can be. A plan that is longer is all of it.
+  double catch_up = 0.0;
   [[nodiscard]] double to() const { return from + length; }
 };
 

@@ -7,6 +7,8 @@
 
 #include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/scene/simulation.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/sim_robot.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -42,6 +44,22 @@ std::string wrong_state(const Mechanism& mechanism, const MechanismState& state)
     if (at && !is_rotation(state.positions.segment<4>(*at))) {
       return "positions " + std::to_string(*at) + " to " + std::to_string(*at + 3) +
              " are a quaternion, which must not be zero";
+    }
+  }
+  return {};
+}
+
+std::string beyond_limits(const SimRobot& robot, const Eigen::VectorXd& positions) {
+  for (const JointLaw& law : robot.laws) {
+    const double q = positions[law.position];
+    if (q < law.limits.lower.value_or(q) - kMostBeyondLimit ||
+        q > law.limits.upper.value_or(q) + kMostBeyondLimit) {
+      const auto text = [](const std::optional<double>& limit) {
+        return limit ? std::to_string(*limit) : std::string("none");
+      };
+      return "positions[" + std::to_string(law.position) + "] is " + std::to_string(q) +
+             ", beyond the limits of its joint: lower " + text(law.limits.lower) + ", upper " +
+             text(law.limits.upper);
     }
   }
   return {};
