@@ -86,6 +86,7 @@ set(public_headers
 set(supporting_headers
   firstcontact/math/double_double.h
   firstcontact/math/export.h
+  firstcontact/math/random_numbers.h
   firstcontact/geometry/convex_core.h
   firstcontact/motion/constant_rate_path.h
   firstcontact/motion/pose.h

@@ -161,6 +161,22 @@ class Includes(unittest.TestCase):
                          ["<firstcontact/query/none.h> does not exist"])
         self.assertEqual(len(self.complaints("query", '#include "order.h"')), 1)
 
+    def test_of_adapters_are_installed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "space.h").write_text("#include <firstcontact/query/detail/pair_query.h>\n"
+                                                       "#include <firstcontact/query/shape_pair.h>\n",
+                                                       encoding="utf-8")
+            before = includes.ADAPTERS
+            includes.ADAPTERS = pathlib.Path(folder)
+            try:
+                found = list(includes.complaints_of_installed())
+            finally:
+                includes.ADAPTERS = before
+        self.assertIn("<firstcontact/query/detail/pair_query.h> is of a detail/ folder, but a header that is "
+                      "installed includes it", found)
+        self.assertIn("<firstcontact/query/shape_pair.h> is included by a header that is installed: "
+                      "add it to supporting_headers", found)
+
     def test_keep_the_proof_apart_from_what_it_proves(self):
         for room in ("contact_solver", "simulation", "query", "narrowphase", "robot_check"):
             self.assertNotIn(room, includes.reach("verification"))
