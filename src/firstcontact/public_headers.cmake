@@ -45,6 +45,7 @@ set(public_headers
   firstcontact/robot_files/read_srdf.h
   firstcontact/robot_files/read_urdf.h
   firstcontact/robot_check/check_robots.h
+  firstcontact/robot_check/link_contact.h
   firstcontact/robot_check/touching_links.h
   firstcontact/scene/check_scene.h
   firstcontact/scene/loaded_scene.h
@@ -77,6 +78,7 @@ set(public_headers
   firstcontact/haptics_files/haptic_run.h
   firstcontact/haptics_files/haptic_setup.h
   firstcontact/page/write_page.h
+  firstcontact/run_page/write_run_page.h
   firstcontact/simulation/simulator.h
   firstcontact/verification/verify_path.h
   firstcontact/verification/verify_result.h
@@ -139,4 +141,5 @@ set(supporting_headers
   firstcontact/retiming/waypoint_path.h
   firstcontact/record/run.h
   firstcontact/record/run_step.h
+  firstcontact/page/page_numbers.h
   firstcontact/verification/proof_verdict.h)

@@ -78,6 +78,28 @@ class Paths(unittest.TestCase):
         self.assertEqual(self.of("x\n`text/interval.h`\n`tests/query`"), [2, 3])
 
 
+class Headers(unittest.TestCase):
+    def of(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for path in ("src/firstcontact", "adapters/ompl/firstcontact_ompl"):
+                (root / path).mkdir(parents=True)
+            (root / "src/firstcontact/public_headers.cmake").write_text(
+                "set(public_headers\n  firstcontact/query/distance.h)\n", encoding="utf-8")
+            (root / "adapters/ompl/firstcontact_ompl/space.h").touch()
+            page = root / "README.md"
+            page.write_text(text, encoding="utf-8")
+            return [line for line, _ in links.about_headers(page, links.installed_headers(root))]
+
+    def test_that_are_installed_or_in_the_repository_are_fine(self):
+        self.assertEqual(self.of("`firstcontact/query/distance.h` `src/firstcontact/query/detail/order.h`\n"
+                                 "```cpp\n#include <firstcontact_ompl/space.h>\n```\n"), [])
+
+    def test_that_are_not_installed_are_named(self):
+        self.assertEqual(self.of("`firstcontact/query/none.h`\n\n```cpp\n#include <firstcontact_ompl/none.h>\n```\n"),
+                         [1, 4])
+
+
 class Rooms(unittest.TestCase):
     def of(self, rooms):
         with tempfile.TemporaryDirectory() as folder:

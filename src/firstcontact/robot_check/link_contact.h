@@ -5,10 +5,10 @@
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/time_window.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
