@@ -16,7 +16,7 @@ class Progress;
 
 struct ProofArguments {
   std::string file;   ///< To be proven.
-  std::string scene;  ///< That results are to be of; may be empty.
+  std::string scene;  ///< That the file is to be of; may be empty.
   bool json = false;
   bool lenient = false;
   int threads = 0;

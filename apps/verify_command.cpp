@@ -6,12 +6,16 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/verification/provable_file.h>
 #include <firstcontact/verification/verify_run.h>
@@ -153,9 +157,43 @@ void require_no_scene(const std::string& file, const std::string& text) {
                                      mend, file));
 }
 
+/// The digest that a run of this scene file has in its header.
+///
+/// @throws ParseError if the file is no scene
+std::string digest_of_scene(const ProofArguments& arguments, RunKind kind) {
+  Scene scene = read_simulation_scene(arguments.scene, {.lenient = arguments.lenient});
+  if (kind != RunKind::haptics || scene.robots.empty()) {
+    return scene.text_digest;
+  }
+  try {
+    ShapeCache cache;
+    return load_scene(std::move(scene), cache).input_digest;  // As prepare_haptics() has it.
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(arguments.scene, error.what());
+  }
+}
+
+/// @throws ParseError if the run was not made of the scene file as it is now
+void require_scene(const ProofArguments& arguments, const RunHeader& header) {
+  const std::string digest = digest_of_scene(arguments, header.kind);
+  if (header.scene.text_digest.empty()) {
+    throw ParseError(arguments.file,
+                     "header.scene_digest: the run states none, as its scene was no file; leave "
+                     "out --scene");
+  }
+  if (header.scene.text_digest != digest) {
+    throw ParseError(arguments.file,
+                     fmt::format("the run is not one of {} as it is now; {} again", arguments.scene,
+                                 header.kind == RunKind::haptics ? "record it" : "simulate"));
+  }
+}
+
 ExitStatus prove_run(const ProofArguments& arguments, std::istream& stream, Progress& progress,
                      const std::stop_token& stop) {
   RunReader run(stream, arguments.file, {.lenient = arguments.lenient});
+  if (!arguments.scene.empty()) {
+    require_scene(arguments, run.header());
+  }
   VerifyRunOptions options{.threads = arguments.threads, .stop = stop};
   options.progress = [&](double time) { progress.doing(fmt::format("verified {:.4g} s", time)); };
   const RunVerification found = [&] {
@@ -209,6 +247,10 @@ ExitStatus verify(const ProofArguments& arguments) {
 constexpr const char* kFooter = R"(
 The kind of the file is found by its contents.
 
+--scene refuses a file that was not made of this scene file as it is now. It compares the digest of
+the scene's text and of the trajectories that this names. In runs of haptics with robots that is the
+digest of all files that it names. Options of the command that made the file are not compared.
+
 A run: looked at are the pairs that a simulation holds apart: one of the two is free, and no rule
 ignores them. Scripted and resting bodies may pass through each other; the answer names such pairs.
 
@@ -236,7 +278,7 @@ void add_verify_command(CLI::App& app, ExitStatus& status) {
                    "The .jsonl file that a simulation wrote, a result of check, or a path of plan")
       ->required();
   command->add_option("--scene", arguments->scene,
-                      "A result or a path has to be one of this scene file as it is now");
+                      "The file has to be one of this scene file as it is now");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, as in a run with this option");

@@ -111,6 +111,15 @@ class Haptics(tool_test.ToolTest):
         self.file("forged.jsonl", "\n".join(lines) + "\n")
         self.assert_refused_with(self.run_tool("verify", "forged.jsonl"), '"gripper/left" jumps by 0.02 m')
 
+    def test_is_compared_with_its_scene(self):
+        for write in (lambda: self.file("scene.json", scene()), self.jaws):  # Without and with a robot.
+            write()
+            self.assertEqual(self.haptics("--device", "simulated", "--duration", "0.05", "--force").returncode, 0)
+            self.assertEqual(self.run_tool("verify", "run.jsonl", "--scene", "scene.json").returncode, 0)
+            self.file("scene.json", (self.folder / "scene.json").read_text() + " ")
+            self.assert_refused_with(self.run_tool("verify", "run.jsonl", "--scene", "scene.json"),
+                                     "run.jsonl: the run is not one of scene.json as it is now; record it again")
+
     def test_names_grips_that_nothing_closes(self):
         self.jaws()
         self.glove([""] * 10, columns="")

@@ -491,6 +491,21 @@ $""")
                                     "it was when the run was made; restore the file, or simulate again")
             self.file(name, text)
 
+    def test_refuses_a_run_of_another_scene(self):
+        scene = {**self.SCENE, "simulation": {"duration": 0.1}}
+        text = json.dumps(scene)
+        self.assertEqual(self.run_tool("simulate", self.file("s.json", text), "-o", "run.jsonl").returncode, 0)
+        self.assertEqual(self.run_tool("verify", "run.jsonl", "--scene", "s.json").returncode, 0)
+        self.file("s.json", json.dumps({**scene, "simulation": {"duration": 0.2}}))
+        self.assert_refused(self.run_tool("verify", "run.jsonl", "--scene", "s.json"),
+                            "run.jsonl: the run is not one of s.json as it is now; simulate again")
+        self.assert_refused_with(self.run_tool("verify", "run.jsonl", "--scene", "gone.json"), "gone.json: ")
+
+    def test_refuses_to_compare_a_run_of_no_file(self):
+        self.file("s.json", json.dumps(self.SCENE))
+        self.assert_refused(self.verify("--scene", "s.json"), "run.jsonl: header.scene_digest: the run states none, as "
+                            "its scene was no file; leave out --scene")
+
     def test_says_what_is_not_proven(self):
         self.steps = []
         result = self.verify()
