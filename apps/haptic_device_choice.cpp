@@ -1,10 +1,13 @@
 #include "haptic_device_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <string_view>
 #include <system_error>
+
+#include <fmt/format.h>
 
 #include <firstcontact/haptic_devices/load_device_plugin.h>
 #include <firstcontact/haptic_devices/recorded_device.h>
@@ -137,6 +140,18 @@ std::optional<std::filesystem::path> file_of_device(const std::string& word) {
     return std::nullopt;
   }
   return word;
+}
+
+double duration_of_recording(const std::string& word, const Recording& recording) {
+  constexpr double kLongest = 1e9;  // [s]  As prepare_haptics().
+  const RecordedDeviceOptions options;
+  const double span = 1e-9 * static_cast<double>(RecordedDevice(recording, options).duration_ns());
+  if (span > kLongest) {
+    throw ParseError(word, fmt::format("time_ns: the times span {:.6g} s, expected at most 1e9 s; "
+                                       "mend the first or the last, or give --duration",
+                                       span));
+  }
+  return std::min(span + 1e-9 * static_cast<double>(options.hold_last_ns), kLongest);
 }
 
 int grips_of_device(const DeviceMapping& mapping) {

@@ -44,6 +44,12 @@ using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptio
 /// The file that a word names; none where it names no file.
 [[nodiscard]] std::optional<std::filesystem::path> file_of_device(const std::string& word);
 
+/// [s]  Until the last sample was held, as the device holds it: all samples are felt.
+///
+/// @param word  that names the recording
+/// @throws ParseError  where it is longer than a session can be
+[[nodiscard]] double duration_of_recording(const std::string& word, const Recording& recording);
+
 /// The values of grips that a device has to sense: up to the last that no button closes.
 [[nodiscard]] int grips_of_device(const DeviceMapping& mapping);
 

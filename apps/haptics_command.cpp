@@ -15,7 +15,6 @@
 
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptic_devices/browser_device.h>
-#include <firstcontact/haptic_devices/recorded_device.h>
 #include <firstcontact/haptic_devices/recording.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
 #include <firstcontact/haptics/wall_session.h>
@@ -76,7 +75,7 @@ std::vector<OutputFile> outputs_of(const Arguments& arguments) {
 /// What the devices are, before they are opened.
 struct NamedDevices {
   std::vector<DeviceChoice> choices;
-  double duration = kDuration;  // [s]  Of the longest recording, if any.
+  double duration = kDuration;  // [s]  Of the longest recording, if any: its last sample is held.
   bool on_the_wall = false;     // Asked for, or because a hand moves one of them.
 };
 
@@ -88,8 +87,9 @@ NamedDevices read_devices(const Arguments& arguments) {
   for (const std::string& word : arguments.devices) {
     const DeviceChoice& choice = named.choices.emplace_back(read_device_choice(word));
     if (const auto* recording = std::get_if<Recording>(&choice)) {
-      longest =
-          std::max(longest, 1e-9 * static_cast<double>(RecordedDevice(*recording).duration_ns()));
+      if (!arguments.duration) {
+        longest = std::max(longest, duration_of_recording(word, *recording));
+      }
     } else if (is_live(choice)) {
       const bool is_mouse = std::holds_alternative<BrowserDeviceOptions>(choice);
       if (is_mouse && std::exchange(has_mouse, true)) {
@@ -475,8 +475,8 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "Seconds; by default those of the longest recording, or 60 with a device that a hand "
-             "moves, or 10");
+             "Seconds. By default 0.1 more than the longest recording, as its last sample is held; "
+             "else 60 with a device that a hand moves, or 10");
   add_number(*command, "--latency", arguments->latency, Range::not_negative,
              "Seconds that a cycle of the contact loop takes in virtual time");
   add_number(

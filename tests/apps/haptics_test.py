@@ -120,6 +120,32 @@ class Haptics(tool_test.ToolTest):
             self.assert_refused_with(self.run_tool("verify", "run.jsonl", "--scene", "scene.json"),
                                      "run.jsonl: the run is not one of scene.json as it is now; record it again")
 
+    def recording(self, *samples):
+        """A hand that is at a height at a time each, in ns."""
+        lines = ["# firstcontact recording: 1", "time_ns,sequence,x,y,z,qw,qx,qy,qz"]
+        lines += [f"{time},{k},0,0,{z},1,0,0,0" for k, (time, z) in enumerate(samples)]
+        self.file("hand.csv", "\n".join(lines) + "\n")
+
+    def test_plays_the_last_sample_of_a_recording(self):
+        self.file("scene.json", scene())
+        for samples, count in (([(0, 0), (10_000_000, 0.01)], 440), ([(5, 0.01)], 400)):
+            self.recording(*samples)
+            result = self.haptics("--device", "hand.csv", "--ticks", "ticks.csv", "--force")
+            self.assertEqual(result.returncode, 0, result)
+            with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+                ticks = list(csv.DictReader(file))
+            self.assertEqual(len(ticks), count)
+            self.assertEqual((ticks[-1]["status"], float(ticks[-1]["device_pz"])), ("live", 0.01))
+
+    def test_names_a_recording_that_is_too_long(self):
+        self.file("scene.json", scene())
+        for last in (2**63 - 1, 10**18 - 2**63):
+            self.recording((-2**63, 0), (last, 0))
+            self.assert_writes_nothing(self.haptics("--device", "hand.csv"), "hand.csv: time_ns: the times span ",
+                                       "at most 1e9 s", "--duration")
+            self.assertEqual(self.haptics("--device", "hand.csv", "--duration", "0.01", "--force").returncode, 0)
+            (self.folder / "run.jsonl").unlink()
+
     def test_names_grips_that_nothing_closes(self):
         self.jaws()
         self.glove([""] * 10, columns="")
