@@ -27,9 +27,12 @@ Vector3d face_normal(const PlacedSurface& body, std::uint32_t triangle, const Ve
 /// Lays the contact on the face of A.
 void lay_on_face_of_A(const PlacedSurface& A, const PlacedSurface& B, Contact& contact) {
   const double around = A.neighbours->flat_around(contact.feature_A);
+  if (around == 0.0) {  // As of points without triangles.
+    return;
+  }
   const Vector3d& before = *contact.n_AB_W;
   const Vector3d n = face_normal(A, contact.feature_A.triangle, before);
-  if (around == 0.0 || !(n.dot(before) >= kMostLean)) {
+  if (!(n.dot(before) >= kMostLean)) {
     return;
   }
   const double radius_A = A.shape->radius();
