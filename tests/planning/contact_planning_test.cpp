@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 
 #include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/contact_motion.h>
@@ -25,8 +27,10 @@
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 #include <firstcontact/planning/plan_path.h>
+#include <firstcontact/robot/robot_motion.h>
 
 #include "planning/plan_cases.h"
+#include "robot/planar_arm.h"
 #include "support/narrow_passages.h"
 #include "support/random.h"
 #include "support/rounds.h"
@@ -194,6 +198,86 @@ void expect_out_and_in(const PlanScene& scene, double least_turns) {
 TEST(Assemblies, ATubeComesOutOfATubeAndGoesIn) { expect_out_and_in(tube_in_tube(32, 2), 0.0); }
 
 TEST(Assemblies, ANutComesOffItsRodAndGoesOn) { expect_out_and_in(nut_on_rod(32, 2), 1.0); }
+
+/// A plate in the plane x = 0 with a square hole of 0.22 m, and a body that moves in a box of 2 m.
+PlanScene plate_with_hole(const Shape& moved) {
+  RobotScene scene;
+  scene.add_body("l", make_box({0.1, 2.0, 4.0}), resting_at({0.0, -1.11, 0.0}));
+  scene.add_body("r", make_box({0.1, 2.0, 4.0}), resting_at({0.0, 1.11, 0.0}));
+  scene.add_body("u", make_box({0.1, 4.0, 2.0}), resting_at({0.0, 0.0, 1.11}));
+  scene.add_body("d", make_box({0.1, 4.0, 2.0}), resting_at({0.0, 0.0, -1.11}));
+  ConfigurationSpace space = ConfigurationSpace::of_body("moved", moved, Vector3d::Constant(-1.0),
+                                                         Vector3d::Constant(1.0));
+  const std::size_t robot = scene.add_robot("moved", space.motion(kAssembled, kAssembled));
+  return {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)};
+}
+
+/// A shape on three slides, which start at some places.
+PlanScene on_slides(const Shape& shape, const Vector3d& start) {
+  RobotDescription robot{.name = "slides", .links = {{"base"}, {"lx"}, {"ly"}, {"tool"}}};
+  robot.links[3].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
+  std::map<std::string, JointMotion> held;
+  for (const int k : {0, 1, 2}) {
+    Joint joint{.name = std::string(1, "xyz"[k]),
+                .type = JointType::prismatic,
+                .parent = robot.links[static_cast<std::size_t>(k)].name,
+                .child = robot.links[static_cast<std::size_t>(k) + 1].name,
+                .axis = Vector3d::Unit(k)};
+    joint.limits = {.lower = -2.0, .upper = 2.0};
+    held.emplace(joint.name, CoordinatePath::constant(start[k]));
+    robot.joints.push_back(joint);
+  }
+  const RobotModel model(robot);
+  RobotScene scene;
+  const std::size_t index = scene.add_robot("slides", RobotMotion(model, held));
+  const std::vector<std::string> names = {"x", "y", "z"};
+  return {.scene = std::move(scene),
+          .robots = {index},
+          .space = ConfigurationSpace::of_joints(model, names, held)};
+}
+
+TEST(TangentSpace, ReachesAsFarAsThickenedShapes) {
+  EXPECT_NEAR(TangentSpace(plate_with_hole(make_sphere(0.1))).reach(), 0.1, 1e-12);
+  EXPECT_NEAR(TangentSpace(plate_with_hole(make_capsule(0.1, 0.02))).reach(), 0.11, 1e-12);
+  // A point has no size: a length of the scene is the scale.
+  const TangentSpace point(plate_with_hole(make_point_cloud({Vector3d::Zero()})));
+  EXPECT_GT(point.reach(), 1e-4);
+  EXPECT_LT(point.reach(), 0.1);
+  EXPECT_TRUE(point.inverse_metric().allFinite());
+}
+
+TEST(TangentSpace, ReachesAsFarWhereverARobotStarts) {
+  for (const Vector3d& start : {Vector3d(0, 0, 0), Vector3d(1.0, 0.3, 0), Vector3d(-2, 2, 2)}) {
+    EXPECT_NEAR(TangentSpace(on_slides(make_sphere(0.1), start)).reach(), 0.1, 1e-12);
+  }
+  EXPECT_GT(TangentSpace(on_slides(make_point_cloud({Vector3d::Zero()}), Vector3d::Zero())).reach(),
+            1e-4);
+  // Turned by its first joint, an arm reaches as far as it is long.
+  const RobotMotion rest = at_rest(planar_arm(2));
+  const std::vector<std::string> names = {"j0", "j1"};
+  RobotScene scene;
+  const std::size_t arm = scene.add_robot("arm", rest);
+  const PlanScene plan{
+      .scene = std::move(scene),
+      .robots = {arm},
+      .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+  EXPECT_NEAR(TangentSpace(plan).reach(), 2.05, 1e-9);
+}
+
+TEST(Contacts, LeadBallsAndPointsThroughAHole) {
+  for (const Shape& moved :
+       {make_sphere(0.1), make_capsule(0.1, 0.001), make_point_cloud({Vector3d::Zero()}),
+        make_point_cloud({Vector3d::Zero()}, 0.1)}) {
+    const PlanScene scene = plate_with_hole(moved);
+    for (const ContactUse use : {ContactUse::slide, ContactUse::both}) {
+      const PlanResult result =
+          plan_path(scene, {-0.5, 0.7, 0.0, 1, 0, 0, 0}, {{0.5, -0.6, 0.2, 1, 0, 0, 0}},
+                    {.contacts = use, .time = 30.0});
+      EXPECT_EQ(result.verdict, PlanVerdict::proven);
+    }
+  }
+}
 
 TEST(TangentSpace, LeadsFromOnePlaceToTheOther) {
   const PlanScene scene = cube_above_floor();

@@ -2,19 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/rotation_forms.h>
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/robot_check/robot_scene.h>
 
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kNearScrew = 0.05;  // [-]  What a motion may depart from a screw about an axis.
+constexpr double kNearScrew = 0.05;   // [-]  What a motion may depart from a screw about an axis.
+constexpr double kLeastReach = 1e-3;  // [-]  Of a length of the scene.
 
 Eigen::Vector3d place_of(const Configuration& q) { return {q[0], q[1], q[2]}; }
 
@@ -29,40 +34,121 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& rotation) {
   return (rotation.w() < 0.0 ? -factor : factor) * rotation.vec();
 }
 
-/// [m]  How far geometries of a robot are from its base, in the motion that the scene has.
-double reach_of_robot(const RobotScene& scene, std::size_t robot) {
-  const Eigen::Vector3d base = scene.robot_motion(robot).base().pose(0.0).position;
-  double reach = 0.0;
-  for (std::size_t member = 0; member < scene.size(); ++member) {
-    const auto link = scene.robot_link(member);
-    if (!link || link->robot != robot) {
-      continue;
+/// [m]  How far a geometry is from the middle of its core, with its thickness.
+double radius_of(const Shape& shape) { return shape.hierarchy().radius + shape.radius(); }
+
+/// [m]  How far a geometry of a member is from the origin of the member's frame.
+double reach_of(const MemberGeometry& geometry) {
+  return geometry.X_MG.position.norm() + geometry.shape.hierarchy().centre.norm() +
+         radius_of(geometry.shape);
+}
+
+/// The joint that has the coordinates of a joint: itself, or the one that it mimics.
+std::size_t leading_joint(const RobotModel& model, std::size_t joint) {
+  while (const std::optional<Mimic>& mimic = model.joints()[joint].mimic) {
+    joint = model.find_joint(mimic->joint).value();
+  }
+  return joint;
+}
+
+/// The reaches of a mover that is a robot. They are lengths of its chains, so that they are the
+/// same wherever it starts.
+class RobotReach {
+ public:
+  RobotReach(const PlanScene& scene, std::size_t mover)
+      : scene_(scene), mover_(mover), model_(scene.space.model(mover)) {}
+
+  /// [m]  From where planned joints turn geometries to what these reach; where joints only slide a
+  /// geometry, the radius of the ball around it.
+  [[nodiscard]] double reach() const {
+    const std::size_t robot = scene_.robots[mover_];
+    double reach = 0.0;
+    for (std::size_t link = 0; link < model_.links().size(); ++link) {
+      const std::size_t member = scene_.scene.first_member(robot) + link;
+      reach = std::max(reach, reach_of_member(member, link, 0.0));
+      for (const Attachment& attachment : scene_.scene.attachments()) {
+        if (attachment.link == member) {
+          const double place = attachment.X_LB ? attachment.X_LB->position.norm() : 0.0;
+          reach = std::max(reach, reach_of_member(attachment.body, link, place));
+        }
+      }
     }
-    for (const MemberGeometry& geometry : scene.geometries(member)) {
-      const Hierarchy& hierarchy = geometry.shape.hierarchy();
-      reach = std::max(reach, (scene.pose(member, 0.0).position - base).norm() +
-                                  geometry.X_MG.position.norm() + hierarchy.centre.norm() +
-                                  hierarchy.radius);
+    return reach;
+  }
+
+ private:
+  [[nodiscard]] double reach_of_member(std::size_t member, std::size_t link, double place) const {
+    const std::optional<double> lever = lever_of(link);
+    double reach = 0.0;
+    for (const MemberGeometry& geometry : scene_.scene.geometries(member)) {
+      reach =
+          std::max(reach, lever ? *lever + place + reach_of(geometry) : radius_of(geometry.shape));
+    }
+    return reach;
+  }
+
+  /// [m]  From the first joint that turns a link to the link's frame; none where no joint turns it.
+  [[nodiscard]] std::optional<double> lever_of(std::size_t link) const {
+    std::optional<double> lever;
+    double length = 0.0;
+    for (auto joint = model_.parent_joint(link); joint;
+         joint = model_.parent_joint(model_.parent_link(*joint))) {
+      bool turns = false;
+      for (const SpaceCoordinate& coordinate : scene_.space.coordinates()) {
+        if (coordinate.mover == mover_ && coordinate.joint == leading_joint(model_, *joint)) {
+          turns = turns || !coordinate.slides;
+          const double way = std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
+          length += coordinate.slides ? way : 0.0;
+        }
+      }
+      if (turns) {
+        lever = length;
+      }
+      length += model_.joints()[*joint].X_PJ.position.norm();
+    }
+    return lever;
+  }
+
+  const PlanScene& scene_;
+  std::size_t mover_;
+  const RobotModel& model_;
+};
+
+/// [m]  The least reach of a mover: a point has none, and all steps are shares of it.
+///
+/// A share of the greatest radius of a body or link, but of no more than the room in which the
+/// mover is planned.
+double least_reach(const PlanScene& scene) {
+  double length = 0.0;
+  for (std::size_t member = 0; member < scene.scene.size(); ++member) {
+    for (const MemberGeometry& geometry : scene.scene.geometries(member)) {
+      length = std::max(length, radius_of(geometry.shape));
     }
   }
-  return reach;
+  double room = 0.5 * (scene.space.high() - scene.space.low()).norm();
+  for (const SpaceCoordinate& coordinate : scene.space.coordinates()) {
+    room = std::max(room, coordinate.slides ? coordinate.upper - coordinate.lower : 0.0);
+  }
+  length = length > 0.0 && room > 0.0 ? std::min(length, room) : std::max(length, room);
+  return kLeastReach * (length > 0.0 ? length : 1.0);
 }
 
 }  // namespace
 
 TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
+  const double least = least_reach(scene);
   if (space_.is_body()) {
     const std::size_t member = scene.scene.first_member(scene.robots.front());
-    const Hierarchy& hierarchy = scene.scene.geometries(member)[0].shape.hierarchy();
-    p_BC_ = hierarchy.centre;
-    reach_ = hierarchy.radius;
+    const Shape& shape = scene.scene.geometries(member)[0].shape;
+    p_BC_ = shape.hierarchy().centre;
+    reach_ = std::max(radius_of(shape), least);
     inverse_metric_ = Eigen::VectorXd::Ones(6);
     inverse_metric_.tail<3>().setConstant(1.0 / (reach_ * reach_));
     return;
   }
   std::vector<double> reaches;  // Of each mover.
-  for (const std::size_t robot : scene.robots) {
-    reaches.push_back(std::max(reach_of_robot(scene.scene, robot), 1e-9));
+  for (std::size_t mover = 0; mover < scene.robots.size(); ++mover) {
+    reaches.push_back(std::max(RobotReach(scene, mover).reach(), least));
     reach_ = std::max(reach_, reaches.back());
   }
   inverse_metric_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(space_.size()));
