@@ -97,6 +97,17 @@ double least_gap(const PlanResult& result,
   return least;
 }
 
+// Without a box, the body has room around links, with their paddings.
+TEST_F(BodyAmongRobots, HasRoomAroundRobots) {
+  const ScenePlan beside = plan(R"("state": {"z": 2})", R"("seed": 1)");
+  EXPECT_GT(beside.plan.space.high().z(), 9.0);
+  std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry"><link name="tool">
+      <collision><geometry><box size="0.2 30 30"/></geometry></collision></link></robot>)";
+  const ScenePlan around = plan(R"("state": {})", R"("seed": 1)");
+  EXPECT_GT(around.plan.space.high().y(), 15.0 + 2.0 * kBall + kMargin + kPadding);
+  EXPECT_EQ(solve(around).verdict, PlanVerdict::proven);
+}
+
 TEST_F(BodyAmongRobots, PassesARobotAtRest) {
   const ScenePlan asked = plan(R"("state": {"z": 0})", R"("seed": 1)");
   const PlanResult result = solve(asked);

@@ -122,6 +122,41 @@ TEST(ScenePlan, HasAClearanceInKilometres) {
 }
 
 // Quaternions of four digits are 1e-5 off the length 1.
+/// The plan of a body from one side of something to the other.
+ScenePlan past(const std::string& obstacle, const std::string& shape, const std::string& more) {
+  const Scene scene =
+      scene_of(R"({"firstcontact": 1, "bodies": [)" + obstacle +
+               R"({"name": "p", "pose": {"position": [-1, 0, 0]}, "shape": )" + shape +
+               R"(}], "plan": {"body": "p",)" + more + R"("goal": {"position": [1, 0, 0]}}})");
+  ShapeCache cache;
+  return make_scene_plan(scene, *scene.plan, cache);
+}
+
+// Without a box, a body has room to go around all that there is.
+TEST(ScenePlan, HasRoomAroundThickShapesAndMargins) {
+  const char* kCapsule = R"({"name": "w", "shape": {"capsule": {"radius": 0.3, "length": 0.2}}},)";
+  const char* kBall = R"({"name": "w", "shape": {"sphere": {"radius": 0.3}}},)";
+  const char* kCube = R"({"name": "w", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}},)";
+  const char* kCubeShape = R"({"box": {"size": [0.1, 0.1, 0.1]}})";
+  for (const ScenePlan& plan :
+       {past(kBall, R"({"sphere": {"radius": 0.1}})", ""), past(kCapsule, kCubeShape, ""),
+        past(kBall, R"({"capsule": {"radius": 0.1, "length": 0.01}})", ""),
+        past(kCube, kCubeShape, R"("margin": 0.3,)")}) {
+    EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
+              PlanVerdict::proven);
+  }
+}
+
+// Also around where a body is meanwhile: this one goes to and fro.
+TEST(ScenePlan, HasRoomAroundWhatMovesBetweenItsEnds) {
+  const ScenePlan plan = past(
+      R"({"name": "w", "shape": {"box": {"size": [0.2, 0.2, 0.2]}},
+          "motion": {"type": "waypoints", "times": [0, 1, 2], "poses": [{"position": [0, 0, 0]},
+                     {"position": [0, 3, 0]}, {"position": [0, 0, 0]}]}},)",
+      R"({"box": {"size": [0.1, 0.1, 0.1]}})", R"("speeds": {"linear": 2, "angular": 2},)");
+  EXPECT_GT(plan.plan.space.high().y(), 3.1);
+}
+
 TEST(ScenePlan, TakesQuaternionsOfAFewDigits) {
   const std::string text = kPegOverWall;
   const std::string start = R"("start": {"position": [-0.5, 0, 0],

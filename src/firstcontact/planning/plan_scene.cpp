@@ -17,8 +17,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/planning/detail/body_box.h>
 #include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/robot_name.h>
@@ -286,29 +286,6 @@ Configuration configuration_of_pose(const Pose& pose) {
   return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
 }
 
-/// [m]  Corners of a box around all that there is, with room for the mover around it.
-std::array<Eigen::Vector3d, 2> box_around(const LoadedScene& loaded, std::size_t mover,
-                                          const std::vector<Pose>& goals) {
-  Eigen::AlignedBox3d box;
-  const Hierarchy& of_mover = shape_of_body(loaded, mover).hierarchy();
-  const double reach = of_mover.centre.norm() + of_mover.radius;
-  for (std::size_t k = 0; k < loaded.scene.bodies.size(); ++k) {
-    const Motion motion = normalised_motion(loaded.scene.bodies[k].motion, loaded.scene.duration);
-    const Hierarchy& hierarchy = shape_of_body(loaded, k).hierarchy();
-    for (const double t : {0.0, 1.0}) {
-      const Pose pose = motion.pose(t);
-      const Eigen::Vector3d centre = pose.position + pose.rotation.normalized() * hierarchy.centre;
-      box.extend(centre - Eigen::Vector3d::Constant(hierarchy.radius));
-      box.extend(centre + Eigen::Vector3d::Constant(hierarchy.radius));
-    }
-  }
-  for (const Pose& goal : goals) {
-    box.extend(goal.position);
-  }
-  return {box.min() - Eigen::Vector3d::Constant(2.0 * reach),
-          box.max() + Eigen::Vector3d::Constant(2.0 * reach)};
-}
-
 /// The scene as its check has it, with the mover as a robot of its own: numbered alike.
 RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
                          const ConfigurationSpace& space, const Configuration& start) {
@@ -347,15 +324,21 @@ RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
 ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
   const std::size_t mover = *question.body;
   const Body& body = loaded.scene.bodies[mover];
-  const std::array<Eigen::Vector3d, 2> box =
-      question.box ? *question.box : box_around(loaded, mover, question.goal_poses);
-  ConfigurationSpace space =
-      ConfigurationSpace::of_body(body.name, shape_of_body(loaded, mover), box[0], box[1]);
-  Configuration start = configuration_of_pose(std::get<FixedMotion>(body.motion).pose);
+  const Shape& shape = shape_of_body(loaded, mover);
+  const Pose start_pose = std::get<FixedMotion>(body.motion).pose;
+  Configuration start = configuration_of_pose(start_pose);
   std::vector<Configuration> goals;
   for (const Pose& goal : question.goal_poses) {
     goals.push_back(configuration_of_pose(with_unit_quaternion(goal)));
   }
+  const auto space_in = [&](const std::array<Eigen::Vector3d, 2>& box) {
+    return ConfigurationSpace::of_body(body.name, shape, box[0], box[1]);
+  };
+  const auto box_of_scene = [&] {
+    const ConfigurationSpace at_start = space_in({start_pose.position, start_pose.position});
+    return detail::box_around(scene_of_body(loaded, mover, at_start, start), question.goal_poses);
+  };
+  ConfigurationSpace space = space_in(question.box ? *question.box : box_of_scene());
   RobotScene scene = scene_of_body(loaded, mover, space, start);
   PlanScene plan{.scene = std::move(scene), .robots = {0}, .space = std::move(space)};
   take_times(loaded.scene, question, plan);
