@@ -359,6 +359,41 @@ TEST_F(GantryFile, KeepsTheLimitsOfJointsThatMimic) {
             std::string::npos);
 }
 
+// The pose of a link is a goal of all joints that move it: planar ones have three coordinates.
+TEST_F(GantryFile, PlansPlanarJointsToThePoseOfALink) {
+  std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="cart">
+      <link name="base"/><link name="cart"/>
+      <link name="tool"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+      <joint name="p" type="planar"><parent link="base"/><child link="cart"/>
+        <axis xyz="0 0 1"/></joint>
+      <joint name="j" type="revolute"><parent link="cart"/><child link="tool"/>
+        <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+    </robot>)";
+  const auto plan_with = [&](const std::string& more) {
+    const Scene asked = parse_scene(R"({"firstcontact": 1,
+        "bodies": [{"name": "wall", "shape": {"box": {"size": [0.00001, 1, 1]}}}],
+        "robots": [{"name": "c", "urdf": "gantry.urdf", "state": {"p/x": -1}}],
+        "plan": {"goal": {"link": "tool", "pose": {"position": [1, 0.2, 0]}})" +
+                                        more + "}}",
+                                    folder_ / "scene.json", 1, {});
+    ShapeCache cache;
+    return make_scene_plan(asked, *asked.plan, cache);
+  };
+  const ScenePlan plan = plan_with(R"(, "bounds": {"p/x": [-2, 2], "p/y": [-2, 2]})");
+  ASSERT_EQ(plan.plan.space.size(), 4u);
+  EXPECT_EQ(plan.plan.space.coordinates()[1].name, "p/y");
+  EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
+            PlanVerdict::proven);
+  const ScenePlan boundless = plan_with("");
+  try {
+    (void)plan_path(boundless.plan, boundless.start, boundless.goals, boundless.options);
+    ADD_FAILURE() << "expected bounds to be asked for";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("slides without limits; give it bounds"),
+              std::string::npos);
+  }
+}
+
 TEST_F(GantryFile, RefusesGoalsThatAreNone) {
   EXPECT_THROW((void)scene(R"({"goal": {"y": 1}})"), ParseError);
   EXPECT_THROW((void)scene(R"({"goal": "home"})"), ParseError);

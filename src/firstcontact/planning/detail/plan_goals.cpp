@@ -30,7 +30,9 @@ std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const st
   return *link;
 }
 
-/// Adds the joints that move a link and have one coordinate; what they mimic in place of others.
+/// Adds the coordinates of the joints that move a link; what they mimic in place of others.
+///
+/// Floating and ball joints have none: they rest.
 void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
   for (auto joint = model.parent_joint(link); joint;
        joint = model.parent_joint(model.parent_link(*joint))) {
@@ -38,10 +40,8 @@ void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointC
     while (model.joints()[mover].mimic) {
       mover = model.find_joint(model.joints()[mover].mimic->joint).value();
     }
-    const JointType type = model.joints()[mover].type;
-    if (type == JointType::revolute || type == JointType::continuous ||
-        type == JointType::prismatic || type == JointType::screw) {
-      named.insert(find_coordinate(model, model.joints()[mover].name));
+    for (std::size_t index = 0; index < coordinate_count(model.joints()[mover].type); ++index) {
+      named.insert({mover, index});
     }
   }
 }
