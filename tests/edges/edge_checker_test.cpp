@@ -181,6 +181,82 @@ TEST(EdgeChecker, ProvesTheWayToTheRoundedPlace) {
   EXPECT_GT(blocked, rounds(200, 40) / 2);
 }
 
+/// A ball at x, and one that is planned, radii of 0.3 and 0.1 m.
+PlanScene balls_at(double x) {
+  RobotScene scene;
+  scene.add_body("ball", make_sphere(0.3), resting_at({x, 0.0, 0.0}));
+  ConfigurationSpace space = ConfigurationSpace::of_body(
+      "moved", make_sphere(0.1), Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
+  const Configuration start = {x - 1.0, 0, 0, 1, 0, 0, 0};
+  const std::size_t robot = scene.add_robot("moved", space.motion(start, start));
+  return {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)};
+}
+
+// Far from the origin, too, an edge has its fraction, and the way to its rounded place is free.
+TEST(EdgeChecker, HasAFractionFarFromTheOrigin) {
+  for (const double x : {0.0, 300.0, 1e4, 1e6}) {
+    const PlanScene scene = balls_at(x);
+    const EdgeChecker checker(scene);
+    const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
+    const Configuration from = {x - 1.0, 0, 0, 1, 0, 0, 0};
+    const Configuration to = {x + 1.0, 0, 0, 0.6, 0.8, 0, 0};
+    for (const EdgeAnswer& answer : {checker.check(from, to), checker.check_closely(from, to)}) {
+      ASSERT_EQ(answer.verdict, EdgeVerdict::blocked) << x;
+      EXPECT_NEAR(answer.fraction, 0.3, 1e-4) << x;
+      const Configuration last = checker.space().interpolate(from, to, answer.fraction);
+      EXPECT_EQ(strict.check(from, last).verdict, EdgeVerdict::free) << x;
+    }
+  }
+}
+
+// Half a turn has a fraction, too: the piece is proven by itself.
+TEST(EdgeChecker, HasAFractionOfHalfATurn) {
+  const PlanScene scene = balls_at(0.0);
+  const Configuration from = {-1.0, 0, 0, 1, 0, 0, 0};
+  const EdgeAnswer answer = EdgeChecker(scene).check(from, {1.0, 0, 0, 0, 0, 0, 1});
+  ASSERT_EQ(answer.verdict, EdgeVerdict::blocked);
+  EXPECT_NEAR(answer.fraction, 0.3, 1e-4);
+}
+
+/// A bar of 1 m that turns on a slide, which rests at a place, and on one that follows the turn.
+ConfigurationSpace turning_on_slides(double place, double multiplier) {
+  RobotDescription robot{
+      .name = "r", .links = {{"base"}, {"rim"}, {"held"}, {"follower"}}, .joints = {}};
+  robot.links[3].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = make_box({2.0, 0.1, 0.1})});
+  robot.joints = {{.name = "turn", .type = JointType::continuous, .parent = "base", .child = "rim"},
+                  {.name = "slide", .type = JointType::prismatic, .parent = "rim", .child = "held"},
+                  {.name = "follows",
+                   .type = JointType::prismatic,
+                   .parent = "held",
+                   .child = "follower",
+                   .mimic = Mimic{.joint = "turn", .multiplier = multiplier}}};
+  for (Joint& joint : robot.joints) {
+    joint.limits = {.lower = -1e6, .upper = 1e6};
+  }
+  const std::vector<std::string> names = {"turn"};
+  return ConfigurationSpace::of_joints(
+      RobotModel(robot), names,
+      {{"turn", CoordinatePath::constant(0.0)}, {"slide", CoordinatePath::constant(place)}});
+}
+
+// A rounded angle moves the end of all that is drawn out, also by slides that no edge moves.
+TEST(ConfigurationSpace, BoundsTheRoundingOfPlaces) {
+  const double ulp = 0x1p-53;
+  EXPECT_GE(turning_on_slides(0.0, 0.0).rounding_bound({0.0}, {1.0}), ulp);
+  EXPECT_GE(turning_on_slides(1e4, 0.0).rounding_bound({0.0}, {1.0}), ulp * 1e4);
+  EXPECT_GE(turning_on_slides(0.0, 1e4).rounding_bound({0.0}, {1.0}), ulp * 2e4);
+  EXPECT_LE(turning_on_slides(0.0, 0.0).rounding_bound({0.0}, {1.0}), 100.0 * ulp);
+  // A body's positions count once: it turns about its origin, wherever that is.
+  const Configuration from = {1e4, 0, 0, 1, 0, 0, 0};
+  const Configuration to = {1e4, 1.0, 0, 0.6, 0.8, 0, 0};
+  const double bound = balls_at(0.0).space.rounding_bound(from, to);
+  EXPECT_GE(bound, ulp * 1e4);
+  EXPECT_LE(bound, 1e-9);
+  // Rounded, a place of half a turn may be reached the other way round.
+  EXPECT_TRUE(std::isinf(balls_at(0.0).space.rounding_bound(from, {1e4, 0, 0, 0, 1, 0, 0})));
+}
+
 TEST(EdgeChecker, GivesAPlaceItsClearance) {
   const EdgeChecker checker(with_gantry(thin_wall(0.0)));
   const StateAnswer apart = checker.state({-0.5, 0.0, 0.0});

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/edges/detail/robot_sizes.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/random_numbers.h>
@@ -50,8 +51,7 @@ Turning turning_of(const SpaceCoordinate& coordinate) {
 
 /// The limits of a coordinate, or what is sampled where it has none.
 void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
-  coordinate.slides = joint.type == JointType::prismatic ||
-                      (joint.type == JointType::planar && coordinate.index != 2);
+  coordinate.slides = detail::is_slide(joint.type, coordinate.index);
   const bool has_own = joint.type == JointType::revolute || joint.type == JointType::prismatic ||
                        joint.type == JointType::screw;
   if (has_own && joint.limits.lower && joint.limits.upper) {
@@ -305,19 +305,32 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
     return std::numeric_limits<double>::infinity();
   }
   constexpr double kUlps = 0x1p-48;  // Far more than the few roundings of a place and of its edge.
-  double numbers = 0.0;
-  double slides = 0.0;
+  std::vector<double> sizes(from.size());
   for (std::size_t k = 0; k < from.size(); ++k) {
-    const double size = std::abs(from[k]) + std::abs(to[k]);
-    numbers += size;
-    slides += size;
+    sizes[k] = std::abs(from[k]) + std::abs(to[k]);
   }
-  double reach = 0.0;
-  for (const Mover& mover : movers_) {
-    reach = std::max(reach, mover.reach);
+  if (is_body_) {
+    constexpr double kNearHalfTurn = 1e-9;  // [rad]  A rounded place may be beyond it.
+    if (angle_between(pose_of(from).rotation, pose_of(to).rotation) >
+        std::numbers::pi - kNearHalfTurn) {
+      return std::numeric_limits<double>::infinity();
+    }
+    // A body turns about its own origin: rounded quaternions move no point by more than its reach
+    // has it, wherever the body is, and rounded positions move all points alike.
+    const double places = sizes[0] + sizes[1] + sizes[2];
+    const double turns = sizes[3] + sizes[4] + sizes[5] + sizes[6];
+    return kUlps * (places + turns * movers_.front().reach);
   }
-  // Each radian moves a point by no more than its robot is long, with what slides drawn out.
-  return kUlps * numbers * (1.0 + reach + carried + slides);
+  double bound = 0.0;
+  for (std::size_t k = 0; k < movers_.size(); ++k) {
+    const Mover& mover = movers_[k];
+    const detail::RobotSizes robot = detail::robot_sizes(*mover.rest, k, coordinates_, sizes);
+    // Each radian moves a point by no more than its robot is long, with what slides drawn out. A
+    // slide moves all points alike.
+    const double lever = mover.reach + carried + robot.slides;
+    bound += robot.planned_slides + robot.planned_turns * lever;  // Two movers may be a pair.
+  }
+  return kUlps * bound;
 }
 
 RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to,

@@ -119,7 +119,12 @@ class FIRSTCONTACT_API ConfigurationSpace {
                                           double share) const;
 
   /// [m]  A bound of how far any point of an edge's piece between rounded places may be from the
-  /// edge itself. Infinite for screws, whose axes may be far away.
+  /// edge itself. Infinite for screws, whose axes may be far away, and for half a turn of a body: a
+  /// piece of it may take the other way. The errors of several movers are added up, as two of them
+  /// may be a pair.
+  ///
+  /// Positions count once. Angles count with the length of what they turn: the reach of a body, or
+  /// a robot drawn out.
   ///
   /// @param carried  [m]  how far what the robot holds reaches from the links that hold it
   [[nodiscard]] double rounding_bound(const Configuration& from, const Configuration& to,

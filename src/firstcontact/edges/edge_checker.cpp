@@ -223,13 +223,14 @@ struct EdgeChecker::Data {
     plan.set_motions(work.search, from, to);
     const detail::EdgeFound found = with_held(work, from, to, ask(work.search), ask);
     const EdgeAnswer edge = answer(from, to, found, work.search.least_margin());
-    return plan.space.has_screws() ? with_proven_screw(work, from, to, found, edge, ask) : edge;
+    return edge.fraction > 0.0 ? edge : with_proven_piece(work, from, to, found, edge, ask);
   }
 
-  /// An answer with the fraction to which a screw is proven: rounding moves the axis of a piece, so
-  /// that the piece is asked by itself.
+  /// An answer with the fraction to which an edge is proven where rounding is too large for a piece
+  /// to inherit that. It moves the axis of a screw, and places far away from the origin. So the
+  /// piece is asked by itself.
   template <class Ask>
-  [[nodiscard]] EdgeAnswer with_proven_screw(ThreadWork& work, const Configuration& from,
+  [[nodiscard]] EdgeAnswer with_proven_piece(ThreadWork& work, const Configuration& from,
                                              const Configuration& to,
                                              const detail::EdgeFound& found, EdgeAnswer edge,
                                              const Ask& ask) {
@@ -341,6 +342,11 @@ EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configura
   first = data_->with_held(work, from, to, first,
                            [](detail::EdgeSearch& search) { return search.first_contact(); });
   EdgeAnswer answer = data_->answer(from, to, first, found.clearance);
+  if (answer.fraction == 0.0) {
+    answer =
+        data_->with_proven_piece(work, from, to, first, answer,
+                                 [](detail::EdgeSearch& search) { return search.first_contact(); });
+  }
   if (answer.verdict == EdgeVerdict::free && found.closest) {
     answer.reason = found.pairs[*found.closest].closest->reason;
   }

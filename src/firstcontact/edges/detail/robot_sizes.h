@@ -1,0 +1,32 @@
+/// @file
+/// How large the coordinates of a robot are along an edge: what their roundings are shares of.
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/robot/robot_motion.h>
+
+namespace firstcontact::detail {
+
+/// Whether a coordinate of a joint is a way along an axis [m], in place of an angle.
+[[nodiscard]] bool is_slide(JointType type, std::size_t index);
+
+/// Sums of the sizes of coordinates. Joints that mimic others count with their own coordinate, and
+/// screws as both.
+struct RobotSizes {
+  double planned_turns = 0.0;   ///< [rad]  Of joints that the edge turns.
+  double planned_slides = 0.0;  ///< [m]  Of joints that the edge slides.
+  double slides = 0.0;          ///< [m]  Of all joints that slide, those that rest included.
+};
+
+/// @param rest            has a motion for every joint that moves; those that no edge moves rest
+/// @param mover           the robot, as coordinates number it
+/// @param of_coordinates  [rad or m]  a bound of the size of each coordinate
+[[nodiscard]] RobotSizes robot_sizes(const RobotMotion& rest, std::size_t mover,
+                                     std::span<const SpaceCoordinate> coordinates,
+                                     std::span<const double> of_coordinates);
+
+}  // namespace firstcontact::detail
