@@ -255,12 +255,14 @@ A run: looked at are the pairs that a simulation holds apart: one of the two is 
 ignores them. Scripted and resting bodies may pass through each other; the answer names such pairs.
 
 A result: each tested pair is proven to stay farther apart than its margin until t. The pair of a
-contact is proven to be within margin and tolerance at t. The proof is about the resolved scene in
-the result. It is refused if that was edited, or if a mesh or robot file has changed. Features,
-points, intervals of contact and closest approaches are not proven again.
+contact is proven to be within margin and tolerance at t. Clearances are proven, too. The proof is about the resolved scene in
+the result. It is refused if that was edited, or if a mesh or robot file has changed. Not proven
+again are contacts (bodies, features, points, counts), intervals of contact, closest approaches, and
+the counts of pairs that are not tested.
 
 A path: every edge is proven to keep the margin and the extra clearance. A path that ends before a
-goal is called approximate. The path is refused if a mesh or robot file has changed.
+goal is called approximate; its distance to the goal is measured again. The path is refused if a
+mesh or robot file has changed. Costs and statistics are not proven again.
 
 Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that bodies
 interpenetrate or come closer than the file claims, or that those of a contact are apart. A file that

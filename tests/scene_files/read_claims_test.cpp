@@ -75,6 +75,9 @@ TEST(ReadClaims, TakesAllThatAResultSays) {
     EXPECT_EQ(claim.verdict, answer.verdict);
     EXPECT_EQ(claim.t, answer.t);
     EXPECT_EQ(claim.tolerance_used, 1e-5);
+    EXPECT_EQ(claim.margin, answer.margin);
+    EXPECT_EQ(claim.time, answer.t * 3.0);
+    EXPECT_EQ(claim.clearance, answer.clearance);
   }
 }
 

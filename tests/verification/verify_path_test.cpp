@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -82,6 +83,25 @@ TEST(VerifyPath, TellsAnApproximatePath) {
   const PathVerification proven = verify_path(path);
   EXPECT_EQ(proven.verdict, ProofVerdict::proven);
   EXPECT_FALSE(proven.reaches_goal);
+}
+
+// An approximate path tells how far from a goal it ends: that is measured again.
+TEST(VerifyPath, MeasuresTheDistanceToTheGoal) {
+  PlannedPath path = ball_path();
+  path.is_proven = false;
+  path.goal.reset();
+  path.goals = {{5, 0, 0, 1, 0, 0, 0}, {1, 2, 0, 0.6, 0.8, 0, 0}};
+  const double turn = 2.0 * std::acos(0.6);
+  path.distance_to_goal = 2.0 + 0.1 * turn;  // The ball has a radius of 0.1 m.
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::proven) << verify_path(path).problem;
+  path.distance_to_goal = 1e-9;
+  const PathVerification found = verify_path(path);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
+  EXPECT_EQ(found.problem.find("The distance_to_goal of the path is 1e-09; it ends 2.18"), 0u)
+      << found.problem;
+  path = ball_path();
+  path.distance_to_goal = 0.5;
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
 }
 
 // Each of these stood under "proven" although nothing had proven it.

@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -196,9 +199,64 @@ TEST(VerifyResult, ProvesEachPair) {
   for (PairClaim& pair : *later.pairs) {
     if (pair.pair[1] == "c" && pair.pair[0] == "a") {
       pair.t += 1e-3;
+      pair.time = pair.t * claims.scene.duration;
     }
   }
   EXPECT_EQ(verdict_of(later), ProofVerdict::refuted);
+}
+
+/// Two balls that pass each other, and one far away.
+std::string fly_by_of_three() {
+  return R"({"firstcontact": 1, "bodies": [
+    {"name": "mover", "shape": {"sphere": {"radius": 0.1}},
+     "motion": {"type": "constant_velocity", "from": {"position": [-1, 0, 0.3]},
+                "translation": [2, 0, 0]}},
+    {"name": "other", "shape": {"sphere": {"radius": 0.1}}},
+    {"name": "far", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 5, 0]}}]})";
+}
+
+PairClaim& claim_of(ResultClaims& claims, const std::string& a, const std::string& b) {
+  return *std::ranges::find(*claims.pairs, std::array<std::string, 2>{a, b}, &PairClaim::pair);
+}
+
+// What stands beside the verdict of a pair is proven, too, or the file is called broken.
+TEST(VerifyResult, LooksAtTheNumbersOfPairs) {
+  const ResultClaims claims = claims_of(fly_by_of_three(), {.all_pairs = true, .closest = true});
+  ASSERT_EQ(verify_result(claims).verdict, ProofVerdict::proven) << verify_result(claims).problem;
+  const auto found_with = [&](const auto& edit) {
+    ResultClaims edited = claims;
+    edit(claim_of(edited, "mover", "other"));
+    return verify_result(edited);
+  };
+  const auto problem_of = [&](const auto& edit) {
+    const ResultVerification found = found_with(edit);
+    EXPECT_EQ(found.verdict, ProofVerdict::broken) << found.problem;
+    return found.problem;
+  };
+  const std::string pair = "Pair of \"mover\" and \"other\": ";
+  EXPECT_EQ(problem_of([](PairClaim& claim) { claim.margin = 40.0; }),
+            pair + "its margin is not that of the scene.");
+  EXPECT_EQ(problem_of([](PairClaim& claim) { claim.time = 0.7; }),
+            pair + "its time is not t times the duration of the scene.");
+  EXPECT_EQ(problem_of([](PairClaim& claim) { claim.clearance = -1.0; }),
+            pair + "its clearance is not a distance.");
+  EXPECT_EQ(problem_of([](PairClaim& claim) {
+              claim.clearance = std::numeric_limits<double>::infinity();
+            }),
+            pair + "its clearance is null, but it is tested.");
+  const ResultVerification closer = found_with([](PairClaim& claim) { claim.clearance = 0.1001; });
+  EXPECT_EQ(closer.verdict, ProofVerdict::refuted) << closer.problem;
+  EXPECT_EQ(closer.problem.find("The clearance of the pair does not hold. "), 0u);
+  EXPECT_EQ(found_with([](PairClaim& claim) { claim.clearance = 0.0999; }).verdict,
+            ProofVerdict::proven);
+}
+
+TEST(VerifyResult, TakesNoClearanceOnlyWhereNoPairIsTested) {
+  ResultClaims claims = claims_of(fly_by("0"));
+  claims.clearance = std::numeric_limits<double>::infinity();
+  const ResultVerification found = verify_result(claims);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
+  EXPECT_EQ(found.problem, "The clearance is null, but pairs are tested.");
 }
 
 TEST(VerifyResult, NamesWhatContradictsItself) {

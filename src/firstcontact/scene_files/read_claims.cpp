@@ -46,9 +46,7 @@ class ClaimsReader {
     if (!is_null(pair)) {
       claims.pair = names(pair);
     }
-    const JsonValue& clearance = reader_.member(root_, "clearance");
-    claims.clearance =
-        is_null(clearance) ? std::numeric_limits<double>::infinity() : reader_.number(clearance);
+    claims.clearance = clearance_of(root_);
     claims.tolerance_used = tolerance(*object, claims.scene);
     const JsonValue& counts = reader_.member(root_, "pair_counts");
     constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
@@ -125,6 +123,11 @@ class ClaimsReader {
     return used == nullptr ? scene.options.tolerance : reader_.positive(*used);
   }
 
+  [[nodiscard]] double clearance_of(const JsonValue& answer) const {
+    const JsonValue& clearance = reader_.member(answer, "clearance");
+    return is_null(clearance) ? std::numeric_limits<double>::infinity() : reader_.number(clearance);
+  }
+
   [[nodiscard]] PairClaim of_pair(const JsonValue& answer, const Scene& scene) const {
     const std::array<std::string, 2> pair = names(reader_.member(answer, "pair"));
     const Verdict own = verdict(answer);
@@ -133,7 +136,10 @@ class ClaimsReader {
     return {.pair = pair,
             .verdict = own,
             .t = t,
-            .tolerance_used = tolerance(std::get<JsonObject>(answer.value), scene)};
+            .tolerance_used = tolerance(std::get<JsonObject>(answer.value), scene),
+            .margin = reader_.number(reader_.member(answer, "margin")),
+            .time = reader_.number(reader_.member(answer, "time")),
+            .clearance = clearance_of(answer)};
   }
 
   const JsonValue& root_;

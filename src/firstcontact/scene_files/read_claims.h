@@ -24,6 +24,9 @@ struct PairClaim {
   Verdict verdict = Verdict::undecided;
   double t = 0.0;               ///< [-]  The pair is claimed to be free before it.
   double tolerance_used = 0.0;  ///< [m]
+  double margin = 0.0;          ///< [m]
+  double time = 0.0;            ///< [s]
+  double clearance = 0.0;       ///< [m]  Infinite where the pair is never tested.
 };
 
 /// The claims of the result of a scene.

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/contact_pair.h>
@@ -170,11 +176,62 @@ class PathProof {
     return moving_.time(waypoint) / moving_.loaded().scene.duration;
   }
 
+  /// From the last waypoint, as ConfigurationSpace::distance(), by arithmetic of its own.
+  [[nodiscard]] double distance_to_goals() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& goal : path_.goals) {
+      if (goal.size() != path_.waypoints.back().size()) {
+        throw BrokenPath("A goal has not as many numbers as a waypoint.");
+      }
+      least = std::min(least, moving_.body() ? way_of_body(path_.waypoints.back(), goal)
+                                             : way_of_joints(path_.waypoints.back(), goal));
+    }
+    return least;
+  }
+
+  [[nodiscard]] double way_of_joints(const std::vector<double>& from,
+                                     const std::vector<double>& to) const {
+    double square = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const bool is_short = path_.turnings.at(k) == Turning::shortest;
+      const double way =
+          is_short ? std::remainder(to[k] - from[k], 2.0 * std::numbers::pi) : to[k] - from[k];
+      square += way * way;
+    }
+    return std::sqrt(square);
+  }
+
+  /// [m]  The way of the origin, and that of the farthest point by the shortest rotation.
+  [[nodiscard]] double way_of_body(const std::vector<double>& from,
+                                   const std::vector<double>& to) const {
+    const Shape& shape = shape_of_body(moving_.loaded(), *moving_.body());
+    const Hierarchy& hierarchy = shape.hierarchy();
+    const double reach = hierarchy.centre.norm() + hierarchy.radius + shape.radius();
+    const auto turn_of = [](const std::vector<double>& q) {
+      return Eigen::Vector4d(q[3], q[4], q[5], q[6]).normalized();
+    };
+    const Eigen::Vector4d a = turn_of(from);
+    const Eigen::Vector4d b = turn_of(to);
+    // The angle of two unit quaternions, exact near 0 as well as near half a turn.
+    const double angle = 4.0 * std::atan2(std::min((a - b).norm(), (a + b).norm()),
+                                          std::max((a - b).norm(), (a + b).norm()));
+    const Eigen::Vector3d way(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+    return way.norm() + reach * angle;
+  }
+
   void require_goal() {
     result_.reaches_goal = path_.goal && *path_.goal < path_.goals.size() &&
                            path_.goals[*path_.goal] == path_.waypoints.back();
     if (path_.is_proven && !result_.reaches_goal) {
       throw BrokenPath("The path calls itself proven, but does not end at the goal that it names.");
+    }
+    // Doubles of a distance; both are sums of few terms.
+    constexpr double kRounding = 1e-9;
+    const double distance = result_.reaches_goal ? 0.0 : distance_to_goals();
+    if (!(std::abs(path_.distance_to_goal - distance) <= kRounding * (1.0 + distance))) {
+      throw BrokenPath("The distance_to_goal of the path is " +
+                       detail::write_json(path_.distance_to_goal) + "; it ends " +
+                       detail::write_json(distance) + " from the nearest goal.");
     }
     const std::size_t edges = path_.waypoints.size() - 1;
     if (path_.clearances.size() != edges) {

@@ -37,8 +37,8 @@ struct PathVerification {
 /// motions within them, and the second is left out. Of a path of one waypoint this is proven of the
 /// place. Where the surroundings move, edges run at the times of the file, and every link of the
 /// mover counts as one that moves. A path begins where its scene has the mover, and one that calls
-/// itself proven ends at the goal that it names, both bit for bit. Joints keep their limits, but
-/// for 1e-9.
+/// itself proven ends at the goal that it names, both bit for bit. The distance to the nearest goal
+/// is measured again. Joints keep their limits, but for 1e-9.
 ///
 /// Not proven again are costs and how the path was found.
 ///

@@ -83,7 +83,7 @@ class ResultProof {
                            .ends_in_contact = claims_.verdict != Verdict::free});
     take(free);
     result_.left_open = free.left_open;
-    prove_clearance();
+    prove_clearances();
     for (const Contact& contact : contacts_) {
       prove(contact);
     }
@@ -128,6 +128,25 @@ class ResultProof {
     }
   }
 
+  void require_numbers(const PairClaim& claim, const BodyPair& pair, const std::string& what) {
+    constexpr double kRounding = 0x1p-50;  // Of the sum of a margin and two paddings.
+    const double margin = courses_.pairs().margin(pair).value();
+    if (!(std::abs(claim.margin - margin) <= kRounding * margin)) {
+      throw BrokenResult(what + "its margin is not that of the scene.");
+    }
+    if (!(claim.time == claim.t * loaded_.scene.duration)) {
+      throw BrokenResult(what + "its time is not t times the duration of the scene.");
+    }
+    if (!(claim.clearance >= 0.0)) {
+      throw BrokenResult(what + "its clearance is not a distance.");
+    }
+    if (std::isfinite(claim.clearance)) {
+      clearances_.insert({pair, claim.clearance});
+    } else if (is_tested(pair)) {
+      throw BrokenResult(what + "its clearance is null, but it is tested.");
+    }
+  }
+
   [[nodiscard]] BodyPair members_of(const std::array<std::string, 2>& names) const {
     BodyPair pair{};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -158,11 +177,15 @@ class ResultProof {
                          " tested pairs, the result is about " + std::to_string(claims_.tested) +
                          ".");
     }
+    if (tested > 0 && !std::isfinite(claims_.clearance)) {
+      throw BrokenResult("The clearance is null, but pairs are tested.");
+    }
     for (const PairClaim& claim : claims_.pairs.value_or(std::vector<PairClaim>())) {
       const std::string what = "Pair of " + detail::in_quotes(claim.pair[0]) + " and " +
                                detail::in_quotes(claim.pair[1]) + ": ";
       require_time(claim.verdict, claim.t, what);
       const BodyPair pair = members_of(claim.pair);
+      require_numbers(claim, pair, what);
       if (!until_.insert({pair, claim.t}).second) {
         throw BrokenResult(what + "it is there twice.");
       }
@@ -198,15 +221,23 @@ class ResultProof {
            !courses_.of_member(pair[1]).empty() && !courses_.pairs().spans(pair).empty();
   }
 
-  void prove_clearance() {
-    if (result_.verdict == ProofVerdict::refuted || courses_.has_tracking_errors() ||
-        !std::isfinite(claims_.clearance)) {
+  void prove_clearances() {
+    if (courses_.has_tracking_errors()) {
       return;
     }
-    ProofFinding found = proof_.prove_free({.until = [this](const BodyPair&) { return claims_.t; },
-                                            .clearance = claims_.clearance,
-                                            .ends_in_contact = claims_.verdict != Verdict::free});
-    take(found, "The clearance of the result does not hold. ");
+    const bool ends_in_contact = claims_.verdict != Verdict::free;
+    if (result_.verdict != ProofVerdict::refuted && std::isfinite(claims_.clearance)) {
+      take(proof_.prove_free({.until = [this](const BodyPair&) { return claims_.t; },
+                              .clearance = claims_.clearance,
+                              .ends_in_contact = ends_in_contact}),
+           "The clearance of the result does not hold. ");
+    }
+    if (result_.verdict != ProofVerdict::refuted && !clearances_.empty()) {
+      take(proof_.prove_free({.until = [this](const BodyPair& pair) { return until(pair); },
+                              .clearances = clearances_,
+                              .ends_in_contact = ends_in_contact}),
+           "The clearance of the pair does not hold. ");
+    }
   }
 
   void prove(const Contact& contact) {
@@ -240,6 +271,7 @@ class ResultProof {
   SceneProof proof_;
   std::map<std::string, std::size_t> members_;
   std::map<BodyPair, double> until_;
+  std::map<BodyPair, double> clearances_;
   std::vector<Contact> contacts_;
   ResultVerification result_;
 };

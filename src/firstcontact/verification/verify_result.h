@@ -63,6 +63,7 @@ struct ResultVerification {
 /// - the pair of a contact is no farther apart at t than margin + tolerance, for the nominal
 ///   motion; also each pair that the result states as in contact;
 /// - no tested pair comes closer before t than the `clearance`, but for 2^-20 of it and rounding;
+///   the same of each pair that has its own;
 /// - the tested pairs are those of the scene, all of them, by an account of its own.
 ///
 /// A cylinder, cone or ellipsoid is proven by the triangles around it; a clearance is proven less
@@ -70,8 +71,9 @@ struct ResultVerification {
 /// a claim and the curved body perhaps is not, the claim is not proven; it is never refuted by them
 /// alone, and no contact is proven by them alone.
 ///
-/// Not proven again are the features, points and normals of contacts, intervals of contact, closest
-/// approaches, `t_upper` of what is undecided and sampling.
+/// Not proven again are the bodies, features, points, normals and count of contacts, intervals of
+/// contact, closest approaches, `t_upper` of what is undecided, counts of untested pairs and
+/// sampling.
 ///
 /// Method: as of verify_run(); the courses of joints and links have arithmetic of their own.
 ///

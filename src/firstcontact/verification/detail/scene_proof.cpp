@@ -52,6 +52,14 @@ double enclosure(const CourseGeometry& A, const CourseGeometry& B) {
   return of(A.shape) + of(B.shape);
 }
 
+bool claims_margins(const FreeClaim& claim) {
+  return claim.has_margins || (!claim.clearance && claim.clearances.empty());
+}
+
+BodyPair in_order(const BodyPair& members) {
+  return {std::min(members[0], members[1]), std::max(members[0], members[1])};
+}
+
 /// What is worse is kept; of what is as bad the earlier one.
 void take(const ProofFinding& found, ProofFinding& kept) {
   const bool decides = found.verdict == ProofVerdict::refuted;
@@ -116,13 +124,22 @@ std::vector<BodyPair> SceneProof::near(const TimeSpan& window, double reach) con
 /// [m]  No pair is claimed to keep a greater distance.
 double SceneProof::reach_of(const FreeClaim& claim) const {
   double reach = claim.clearance.value_or(0.0);
-  if (!claim.clearance || claim.has_margins) {
+  if (claims_margins(claim)) {
     reach = std::max(reach, courses_.pairs().greatest_margin() + claim.extra);
+  }
+  for (const auto& [members, clearance] : claim.clearances) {
+    reach = std::max(reach, clearance);
   }
   for (const auto& [members, distance] : claim.held) {
     reach = std::max(reach, distance);
   }
   return reach;
+}
+
+/// [m]  The clearance that is claimed of a pair; none where none is.
+std::optional<double> SceneProof::clearance_of(const FreeClaim& claim, const BodyPair& members) {
+  const auto own = claim.clearances.find(in_order(members));
+  return own != claim.clearances.end() ? own->second : claim.clearance;
 }
 
 void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
@@ -131,16 +148,16 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
   for (const BodyPair& pair : near(window, reach_of(claim))) {
     const BodyPair members{geometries[pair[0]].member, geometries[pair[1]].member};
     const std::optional<double> margin = courses_.pairs().margin(members);
-    const auto held =
-        claim.held.find({std::min(members[0], members[1]), std::max(members[0], members[1])});
-    if (!margin) {
+    const auto held = claim.held.find(in_order(members));
+    const std::optional<double> clearance = clearance_of(claim, members);
+    if (!margin || !(clearance || claims_margins(claim))) {
       continue;
     }
     const bool is_held = held != claim.held.end();
     Job job{.a = pair[0], .b = pair[1], .margin = is_held ? held->second : *margin + claim.extra};
-    if (claim.clearance) {
+    if (clearance) {
       // Curved bodies keep a clearance if the triangles around them keep that much less.
-      const double kept = *claim.clearance - enclosure(geometries[pair[0]], geometries[pair[1]]);
+      const double kept = *clearance - enclosure(geometries[pair[0]], geometries[pair[1]]);
       const bool is_shown = is_held || kept <= *margin;  // It is, by the margin.
       if (is_shown && !claim.has_margins) {
         continue;
@@ -164,7 +181,7 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
 
 ProofFinding SceneProof::prove_free(const FreeClaim& claim) const {
   ProofFinding finding;
-  if ((!claim.clearance || claim.has_margins) && claim.from == 0.0) {
+  if (claims_margins(claim) && claim.from == 0.0) {
     finding = prove_outside(claim);
   }
   const std::vector<TimeSpan> all = windows(claim);

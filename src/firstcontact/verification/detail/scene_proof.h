@@ -42,6 +42,8 @@ struct FreeClaim {
   /// [m]  In place of the margins, or beside them: a distance that pairs keep, but for 2^-20 of it
   /// and twice the rounding.
   std::optional<double> clearance = {};
+  /// [m]  The same of some pairs, each with its own; the claim is about no others.
+  std::map<BodyPair, double> clearances = {};
   /// Whether a clearance is claimed beside the margins; then a proof is of both.
   bool has_margins = false;
   /// Whether the claim of a pair ends where the pair may touch: then the last moment may be left
@@ -82,6 +84,8 @@ class SceneProof {
   [[nodiscard]] std::vector<TimeSpan> windows(const FreeClaim& claim) const;
   [[nodiscard]] std::vector<BodyPair> near(const TimeSpan& window, double reach) const;
   [[nodiscard]] double reach_of(const FreeClaim& claim) const;
+  [[nodiscard]] static std::optional<double> clearance_of(const FreeClaim& claim,
+                                                          const BodyPair& members);
   void add_jobs(const FreeClaim& claim, const TimeSpan& window, std::vector<Job>& jobs) const;
   [[nodiscard]] ProofFinding prove(const FreeClaim& claim, std::vector<Job>& jobs) const;
   [[nodiscard]] ProofFinding prove(const FreeClaim& claim, const Job& job) const;
