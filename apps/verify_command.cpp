@@ -255,7 +255,8 @@ A run: looked at are the pairs that a simulation holds apart: one of the two is 
 ignores them. Scripted and resting bodies may pass through each other; the answer names such pairs.
 
 A result: each tested pair is proven to stay farther apart than its margin until t. The pair of a
-contact is proven to be within margin and tolerance at t. Clearances are proven, too. The proof is about the resolved scene in
+contact is proven to be within margin and tolerance at t. A tolerance_used has to be one that the
+rounding of doubles explains. Clearances are proven, too. The proof is about the resolved scene in
 the result. It is refused if that was edited, or if a mesh or robot file has changed. Not proven
 again are contacts (bodies, features, points, counts), intervals of contact, closest approaches, and
 the counts of pairs that are not tested.

@@ -259,6 +259,59 @@ TEST(VerifyResult, TakesNoClearanceOnlyWhereNoPairIsTested) {
   EXPECT_EQ(found.problem, "The clearance is null, but pairs are tested.");
 }
 
+// With a tolerance that is large enough, bodies are in contact at any time.
+TEST(VerifyResult, TakesNoToleranceThatRoundingDoesNotExplain) {
+  ResultClaims early = claims_of(falling_box());
+  early.t = early.time = 0.1;
+  early.tolerance_used = 5.0;
+  const ResultVerification found = verify_result(early);
+  EXPECT_EQ(found.verdict, ProofVerdict::not_proven);
+  EXPECT_EQ(found.problem.find("The tolerance_used is 5 m; rounding explains no more than"), 0u)
+      << found.problem;
+  ResultClaims pairs = claims_of(falling_box(), {.all_pairs = true});
+  pairs.pairs->front().tolerance_used = 2e-6;
+  EXPECT_EQ(verify_result(pairs).verdict, ProofVerdict::not_proven);
+  EXPECT_NE(verify_result(pairs).problem.find("\"box\" and \"floor\": the tolerance_used"),
+            std::string::npos);
+  ResultClaims free = claims_of(fly_by("0"));
+  free.tolerance_used = 0.01;
+  EXPECT_EQ(verify_result(free).verdict, ProofVerdict::not_proven);
+}
+
+/// A cube that turns while it flies into a wall 5 m away, with a tolerance that doubles do not
+/// resolve.
+///
+/// @param place, way  [m]  where it begins, and its way in the step
+std::string turning_into_a_wall(double place, double way) {
+  return R"({"firstcontact": 1, "bodies": [
+    {"name": "cube", "shape": {"box": {"size": [1, 1, 1]}},
+     "motion": {"type": "constant_velocity", "from": {"position": [)" +
+         std::to_string(place) + R"(, 0, 0]}, "translation": [)" + std::to_string(way) +
+         R"(, 0, 0], "rotation_vector": [0.1, 0.2, 0.3]}},
+    {"name": "wall", "shape": {"box": {"size": [1, 9, 9]}}, "pose": {"position": [)" +
+         std::to_string(place + 5.0) + R"(, 0, 0]}}], "options": {"tolerance": 1e-15}})";
+}
+
+// Where doubles need a larger tolerance than was asked, the check's own is one that they explain.
+TEST(VerifyResult, TakesTheToleranceThatACheckNeeds) {
+  for (const auto& [place, way] : {std::pair{1.0, 6.0}, {1e6, 6.0}, {1.0, 20.0}}) {
+    const ResultClaims claims = claims_of(turning_into_a_wall(place, way), {.all_pairs = true});
+    ASSERT_EQ(claims.verdict, Verdict::contact);
+    EXPECT_GT(claims.tolerance_used, 1e-15);
+    EXPECT_GT(claims.pairs->front().tolerance_used, 1e-15);
+    const ResultVerification found = verify_result(claims);
+    EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
+  }
+  // So it is of a body so fast that it moves 0.1 um from one double of time to the next.
+  std::string fast = turning_into_a_wall(-8.1e8, 9e8);
+  const std::string wall = "[-809999995.000000, 0, 0]";
+  fast.replace(fast.find(wall), wall.size(), "[5, 0, 0]");
+  const ResultClaims claims = claims_of(fast, {.all_pairs = true});
+  ASSERT_EQ(claims.verdict, Verdict::contact);
+  EXPECT_GT(claims.tolerance_used, 1e-7);
+  EXPECT_EQ(verify_result(claims).problem.find("tolerance_used"), std::string::npos);
+}
+
 TEST(VerifyResult, NamesWhatContradictsItself) {
   const ResultClaims claims = claims_of(falling_box());
   const auto problem = [&](const auto& edit) {

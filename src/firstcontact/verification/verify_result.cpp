@@ -12,6 +12,7 @@
 #include <firstcontact/scene_files/read_claims.h>
 #include <firstcontact/text/write_json.h>
 #include <firstcontact/verification/detail/describe_finding.h>
+#include <firstcontact/verification/detail/explained_tolerance.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 #include <firstcontact/verification/detail/scene_courses.h>
 #include <firstcontact/verification/detail/scene_proof.h>
@@ -78,6 +79,7 @@ class ResultProof {
       return result_;
     }
     result_.verdict = ProofVerdict::proven;
+    bound_tolerances();
     const ProofFinding free =
         proof_.prove_free({.until = [this](const BodyPair& pair) { return until(pair); },
                            .ends_in_contact = claims_.verdict != Verdict::free});
@@ -219,6 +221,36 @@ class ResultProof {
   [[nodiscard]] bool is_tested(const BodyPair& pair) const {
     return courses_.pairs().margin(pair) && !courses_.of_member(pair[0]).empty() &&
            !courses_.of_member(pair[1]).empty() && !courses_.pairs().spans(pair).empty();
+  }
+
+  /// A larger tolerance than the asked one proves less: it has to be one that rounding explains.
+  void bound_tolerances() {
+    const double asked = claims_.scene.options.tolerance;
+    double all = asked;  // That of the result is the greatest of its pairs.
+    if (claims_.tolerance_used > asked) {
+      for (std::size_t a = 0; a < courses_.member_count(); ++a) {
+        all = std::max(all, 2.0 * detail::explained_tolerance(courses_, a));
+      }
+    }
+    bound_tolerance(claims_.tolerance_used, all, "The");
+    for (const PairClaim& claim : claims_.pairs.value_or(std::vector<PairClaim>())) {
+      if (claim.tolerance_used > asked) {
+        const BodyPair pair = members_of(claim.pair);
+        bound_tolerance(claim.tolerance_used,
+                        std::max(asked, detail::explained_tolerance(courses_, pair[0]) +
+                                            detail::explained_tolerance(courses_, pair[1])),
+                        "Pair of " + detail::in_quotes(claim.pair[0]) + " and " +
+                            detail::in_quotes(claim.pair[1]) + ": the");
+      }
+    }
+  }
+
+  void bound_tolerance(double used, double most, const std::string& what) {
+    if (!(used <= most) && result_.problem.empty()) {
+      result_.verdict = ProofVerdict::not_proven;
+      result_.problem = what + " tolerance_used is " + detail::write_json(used) +
+                        " m; rounding explains no more than " + detail::write_json(most) + " m.";
+    }
   }
 
   void prove_clearances() {

@@ -66,6 +66,9 @@ struct ResultVerification {
 ///   the same of each pair that has its own;
 /// - the tested pairs are those of the scene, all of them, by an account of its own.
 ///
+/// A tolerance_used beyond the tolerance of the scene has to be one that rounding explains, by the
+/// sizes, places and speeds of the bodies. With a larger one nothing is proven.
+///
 /// A cylinder, cone or ellipsoid is proven by the triangles around it; a clearance is proven less
 /// what these are larger. Where they are too near for
 /// a claim and the curved body perhaps is not, the claim is not proven; it is never refuted by them
