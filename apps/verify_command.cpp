@@ -136,10 +136,13 @@ std::string told_kind(std::istream& stream, ProvableFile& kind) {
   if (kind == ProvableFile::run) {
     return {};
   }
-  std::ostringstream rest;
-  rest << stream.rdbuf();
-  text += '\n' + rest.str();
+  if (!stream.eof()) {
+    std::ostringstream rest;
+    rest << stream.rdbuf();
+    text += '\n' + rest.str();
+  }
   kind = kind == ProvableFile::unknown ? provable_file(text) : kind;
+  kind = kind == ProvableFile::unknown ? damaged_file(text) : kind;
   return text;
 }
 

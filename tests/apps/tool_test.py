@@ -584,6 +584,17 @@ $""")
         self.assert_refused(self.verify(claims), "result.json:1: input_digest: a mesh or robot file of the scene is not "
                             "what it was when the result was made; restore the file, or check again")
 
+    def test_tells_what_is_wrong_with_a_damaged_file(self):
+        text = json.dumps(self.check(scenes.CONTACT), separators=(",", ":"))
+        for damaged in (text[:len(text) // 2], text.replace('"t":', '"t":0,"t":', 1)):
+            result = self.run_tool("verify", self.file("damaged.json", damaged))
+            self.assert_refused_with(result, "damaged.json:1: ")
+            self.assertNotIn("the header of a run", result.stderr)
+        for damaged in ('{"firstcontact_path":1,"verdict":"pro', '{"firstcontact_path":1,"goal":0,"goal":0}'):
+            result = self.run_tool("verify", self.file("path.json", damaged))
+            self.assert_refused_with(result, "path.json:1: ")
+            self.assertNotIn("the header of a run", result.stderr)
+
     def test_warns_where_there_is_no_digest(self):
         claims = self.check(scenes.FREE)
         del claims["scene_digest"], claims["resolved_digest"]

@@ -463,5 +463,16 @@ TEST(ProvableFile, TellsResultsFromRuns) {
   EXPECT_EQ(provable_file(""), ProvableFile::unknown);
 }
 
+TEST(ProvableFile, GuessesWhatADamagedFileWas) {
+  EXPECT_EQ(damaged_file("{\n \"firstcontact_path\": 1, \"verdict\": "), ProvableFile::path);
+  EXPECT_EQ(damaged_file(R"({"firstcontact_run": 1, "a": 1, "a": 2})"), ProvableFile::run);
+  const std::string result = checked(falling_box());
+  EXPECT_EQ(damaged_file(result.substr(0, result.size() / 2)), ProvableFile::result);
+  EXPECT_EQ(damaged_file(R"({"firstcontact": 1, "bodies")"), ProvableFile::unknown);
+  EXPECT_EQ(damaged_file("solid mesh"), ProvableFile::unknown);
+  // Nothing is damaged in these.
+  EXPECT_EQ(damaged_file(R"({"id": "a", "firstcontact": 1})"), ProvableFile::unknown);
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -1,5 +1,6 @@
 #include <firstcontact/verification/provable_file.h>
 
+#include <algorithm>
 #include <variant>
 
 #include <firstcontact/text/json_tree.h>
@@ -7,6 +8,18 @@
 #include <firstcontact/text/parse_json.h>
 
 namespace firstcontact {
+namespace {
+
+bool is_json(std::string_view text) {
+  try {
+    (void)detail::parse_json(text, "");
+    return true;
+  } catch (const ParseError&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 ProvableFile provable_file(std::string_view text) {
   try {
@@ -27,6 +40,29 @@ ProvableFile provable_file(std::string_view text) {
   } catch (const ParseError&) {
     return ProvableFile::unknown;
   }
+}
+
+ProvableFile damaged_file(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const auto skip = [&] {
+    text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  };
+  if (is_json(text)) {
+    return ProvableFile::unknown;
+  }
+  skip();
+  if (!text.starts_with('{')) {
+    return ProvableFile::unknown;
+  }
+  text.remove_prefix(1);
+  skip();
+  if (text.starts_with("\"firstcontact_run\"")) {
+    return ProvableFile::run;
+  }
+  if (text.starts_with("\"firstcontact_path\"")) {
+    return ProvableFile::path;
+  }
+  return text.starts_with("\"id\"") ? ProvableFile::result : ProvableFile::unknown;
 }
 
 }  // namespace firstcontact
