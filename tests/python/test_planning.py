@@ -53,6 +53,15 @@ def test_takes_the_greatest_seed_and_refuses_counts_below_zero():
         fc.plan(SCENE, shortcuts=-1)
 
 
+@pytest.mark.parametrize("threads", [-1, 1025])
+def test_refuses_numbers_of_threads_that_the_tool_refuses(threads):
+    with pytest.raises(ValueError, match="threads: expected a whole number from 0 to 1024, got"):
+        fc.plan(SCENE, threads=threads)
+    checker = fc.EdgeChecker(fc.load_scene(SCENE))
+    with pytest.raises(ValueError, match="threads: expected a whole number from 0 to 1024, got"):
+        checker.check([pose(-0.5, 0, 0)], [pose(-0.5, 1, 0)], threads=threads)
+
+
 def test_plans_in_time_among_what_moves():
     poses = [{"position": [0, y, 0]} for y in (0, 4, 0, 0)]
     door = {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
@@ -122,6 +131,12 @@ def test_checks_edges():
         checker.check(start[:, :3], end)
     with pytest.raises(ValueError, match="end"):
         checker.check(start, np.full_like(end, np.nan))
+    zero = start.copy()
+    zero[1, 3:] = 0
+    with pytest.raises(ValueError, match="start: row 1: .*quaternion"):
+        checker.check(zero, end)
+    with pytest.raises(ValueError, match="places: row 1: .*quaternion"):
+        checker.clearance(zero)
 
 
 def test_checks_from_many_threads():

@@ -9,6 +9,8 @@ from ._tuples import PlanAnswer
 _SEEDS = 2**53
 """Path files hold smaller seeds only: whole numbers that JSON keeps."""
 _COUNTS = 2**31
+_THREADS = 1025
+"""As the tool: at most 1024."""
 
 
 def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None = None,
@@ -32,7 +34,7 @@ def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None =
         seed = whole_number(seed, "seed", _SEEDS)
     return _plan(load_scene(scene), planner=planner, contacts=contacts, seed=seed, time=time,
                  shortcuts=whole_number(shortcuts, "shortcuts", _COUNTS), approximate=approximate,
-                 threads=threads, stop=stop)
+                 threads=whole_number(threads, "threads", _THREADS), stop=stop)
 
 
 __all__ = ["EdgeChecker", "plan"]

@@ -76,15 +76,38 @@ std::vector<Configuration> places_from(py::handle value, const char* name, std::
   return places;
 }
 
+/// What is wrong with a place; empty where an edge may begin or end there. Joints may be beyond
+/// their limits, and quaternions of any length that is no rounding.
+std::string problem_of(const ConfigurationSpace& space, const Configuration& place) {
+  if (!std::ranges::all_of(place, [](double number) { return std::abs(number) <= 1e8; })) {
+    return space.defect(place).value_or("expected finite numbers");
+  }
+  if (!space.is_body()) {
+    return "";
+  }
+  try {
+    (void)space.motion(place, place);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
 void require_places_of(const ConfigurationSpace& space, const std::vector<Configuration>& places,
                        const char* name) {
   for (std::size_t k = 0; k < places.size(); ++k) {
-    for (const double number : places[k]) {
-      if (!(std::abs(number) <= 1e8)) {
-        throw py::value_error(std::string(name) + ": row " + std::to_string(k) + ": " +
-                              space.defect(places[k]).value_or("expected finite numbers"));
-      }
+    const std::string problem = problem_of(space, places[k]);
+    if (!problem.empty()) {
+      throw py::value_error(std::string(name) + ": row " + std::to_string(k) + ": " + problem);
     }
+  }
+}
+
+void require_threads(int threads) {
+  constexpr int kMost = 1024;
+  if (threads < 0 || threads > kMost) {
+    throw py::value_error("threads: expected a whole number from 0 to " + std::to_string(kMost) +
+                          ", got " + std::to_string(threads));
   }
 }
 
@@ -98,6 +121,7 @@ class HeldEdges {
   [[nodiscard]] const ScenePlan& plan() const { return plan_; }
 
   py::object check(py::handle from, py::handle to, int threads) const {
+    require_threads(threads);
     const std::vector<Configuration> begins = places_from(from, "start", size());
     const std::vector<Configuration> ends = places_from(to, "end", size());
     require_places_of(plan_.plan.space, begins, "start");
