@@ -215,6 +215,11 @@ PlanScene plate_with_hole(const Shape& moved) {
 /// A shape on three slides, which start at some places.
 PlanScene on_slides(const Shape& shape, const Vector3d& start) {
   RobotDescription robot{.name = "slides", .links = {{"base"}, {"lx"}, {"ly"}, {"tool"}}};
+  // The frame rests: it is no part of the reach.
+  robot.links[0].collision.push_back({.name = "",
+                                      .X_LG = {{0.0, 0.0, -9.0}, Eigen::Quaterniond::Identity()},
+                                      .source = SphereGeometry{},
+                                      .shape = make_box({9.0, 9.0, 0.1})});
   robot.links[3].collision.push_back(
       {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
   std::map<std::string, JointMotion> held;

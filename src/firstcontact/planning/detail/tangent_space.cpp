@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/edges/detail/robot_sizes.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/rotation_forms.h>
@@ -78,33 +79,42 @@ class RobotReach {
 
  private:
   [[nodiscard]] double reach_of_member(std::size_t member, std::size_t link, double place) const {
-    const std::optional<double> lever = lever_of(link);
+    const Lever lever = lever_of(link);
     double reach = 0.0;
+    if (!lever.moves) {
+      return reach;
+    }
     for (const MemberGeometry& geometry : scene_.scene.geometries(member)) {
-      reach =
-          std::max(reach, lever ? *lever + place + reach_of(geometry) : radius_of(geometry.shape));
+      reach = std::max(reach, lever.turned ? *lever.turned + place + reach_of(geometry)
+                                           : radius_of(geometry.shape));
     }
     return reach;
   }
 
-  /// [m]  From the first joint that turns a link to the link's frame; none where no joint turns it.
-  [[nodiscard]] std::optional<double> lever_of(std::size_t link) const {
-    std::optional<double> lever;
+  struct Lever {
+    bool moves = false;  // By planned joints.
+    /// [m]  From the first joint that turns a link to the link's frame; none where no joint does.
+    std::optional<double> turned = {};
+  };
+
+  [[nodiscard]] Lever lever_of(std::size_t link) const {
+    Lever lever;
     double length = 0.0;
     for (auto joint = model_.parent_joint(link); joint;
          joint = model_.parent_joint(model_.parent_link(*joint))) {
-      bool turns = false;
+      double ways = 0.0;  // [m]
       for (const SpaceCoordinate& coordinate : scene_.space.coordinates()) {
-        if (coordinate.mover == mover_ && coordinate.joint == leading_joint(model_, *joint)) {
-          turns = turns || !coordinate.slides;
-          const double way = std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
-          length += coordinate.slides ? way : 0.0;
+        if (coordinate.mover != mover_ || coordinate.joint != leading_joint(model_, *joint)) {
+          continue;
+        }
+        lever.moves = true;
+        if (is_slide(model_.joints()[*joint].type, coordinate.index)) {
+          ways += std::max(std::abs(coordinate.lower), std::abs(coordinate.upper));
+        } else {
+          lever.turned = length;  // A planar joint slides before it turns.
         }
       }
-      if (turns) {
-        lever = length;
-      }
-      length += model_.joints()[*joint].X_PJ.position.norm();
+      length += ways + model_.joints()[*joint].X_PJ.position.norm();
     }
     return lever;
   }
