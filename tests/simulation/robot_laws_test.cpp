@@ -452,20 +452,18 @@ TEST_F(RobotLaws, CatchUpInAStepWhatJamsKeptFromMotors) {
       connected("j1", "revolute", "body", "a", "0 1 0", "0.1 0 -0.12", limits) +
       connected("j2", "revolute", "body", "b", "0 1 0", "-0.1 0 -0.12", limits) +
       connected("j3", "revolute", "a", "c", "1 0 0", "0 0 -0.4", limits);
-  for (const double h : {0.005, 0.0025}) {
-    Simulator s = made(arms,
-                       R"("dynamics": {"base": "free", "linear_velocity": [0.3, 0, 0],
-                            "angular_velocity": [0.5, 1, 2], "velocities": {"j1": 3, "j2": -2, "j3": 1},
-                            "motors": {"j1": {"position": [[0, 0], [0.5, 1.5], [2, -1]]},
-                                       "j3": {"position": [[0, 0], [2, 1]]}}})",
-                       R"("gravity": [0, 0, 0], "step": )" + number_text(h));
-    const auto steps = test::run(s, static_cast<std::size_t>(std::round(0.9 / h)));
-    for (const RunStep& step : steps) {
-      ASSERT_LE(step.kinetic_energy, 5.0) << h << " " << step.index;
-      ASSERT_EQ(step.time_lost, 0.0) << h << " " << step.index;
-    }
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << h;
+  Simulator s = made(arms,
+                     R"("dynamics": {"base": "free", "linear_velocity": [0.3, 0, 0],
+                          "angular_velocity": [0.5, 1, 2], "velocities": {"j1": 3, "j2": -2, "j3": 1},
+                          "motors": {"j1": {"position": [[0, 0], [0.5, 1.5], [2, -1]]},
+                                     "j3": {"position": [[0, 0], [2, 1]]}}})",
+                     R"("gravity": [0, 0, 0], "step": 0.005)");
+  const auto steps = test::run(s, 185);
+  for (const RunStep& step : steps) {
+    ASSERT_LE(step.kinetic_energy, 5.0) << step.index;
+    ASSERT_EQ(step.time_lost, 0.0) << step.index;
   }
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
 }
 
 TEST_F(RobotLaws, KeepMomentaWhereFrictionHoldsARobotAgainstItself) {
