@@ -9,6 +9,7 @@
 
 #include "island/tie_laws.h"
 #include "simulation/simulated_run.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -87,6 +88,42 @@ TEST(LeverTie, LightLinksHoldALoad) {
   const std::vector<RunStep> steps = run(s, 20);
   EXPECT_LE(farthest(steps, 0, {-0.1, 0, 0}, Vector3d::Zero()), 1e-6);
   EXPECT_NEAR(energy_of(steps.back()), energy_of(steps.front()), 1e-3);
+}
+
+// A limit: a heavy last body loses energy where the others snap through a line, and gains none.
+TEST(LeverTie, LightLinksThatSnapUnderALoadLoseLittleAndGainNothing) {
+  const auto link = [](const std::string& name, const Vector3d& p, double angle, double mass) {
+    return R"({"name": ")" + name +
+           R"(", "shape": {"sphere": {"radius": 0.01}}, "pose": {"position": )" +
+           test::numbers({p.x(), p.y(), p.z()}) + R"(, "rpy": )" +
+           test::numbers({0.0, angle, 0.0}) + R"(}, "dynamics": {"mass": )" +
+           test::number_text(mass) + R"(, "centre_of_mass": [0, 0, 0], "inertia": [)" +
+           test::numbers({0.02 * mass, 0.0, 0.0}) + ", " + test::numbers({0.0, 0.02 * mass, 0.0}) +
+           ", " + test::numbers({0.0, 0.0, 0.002 * mass}) + "]}}";
+  };
+  std::string links;
+  std::string ties;
+  Vector3d end = Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const double angle = std::vector{1.2, 2.2, 2.7}[static_cast<std::size_t>(k)];
+    const Vector3d along = -0.5 * Vector3d(std::sin(angle), 0.0, std::cos(angle));
+    const std::string name(1, static_cast<char>('a' + k));
+    const std::string before(1, static_cast<char>('a' + k - 1));
+    links += (k == 0 ? "" : ", ") + link(name, end + 0.5 * along, angle, k == 2 ? 100.0 : 1.0);
+    ties += (k == 0 ? R"({"type": "pin", "bodies": [null, "a"], "points": [[0, 0, 0], )"
+                    : R"(, {"type": "pin", "bodies": [")" + before + R"(", ")" + name +
+                          R"("], "points": [[0, 0, -0.25], )") +
+            "[0, 0, 0.25]]}";
+    end += along;
+  }
+  Simulator s = simulator(links, tie_settings(0.0025, ties));
+  const std::vector<RunStep> steps = run(s, test::rounds(600, 100));
+  double most = 0.0;
+  for (const RunStep& step : steps) {
+    most = std::max(most, step.kinetic_energy);
+    ASSERT_LE(energy_of(step), energy_of(steps.front()) + 2e-3 * 1500.0) << step.index;
+  }
+  EXPECT_GE(energy_of(steps.back()), energy_of(steps.front()) - 0.08 * most);
 }
 
 /// Two rockers on the ground and a coupler, as bodies that hinges hold.

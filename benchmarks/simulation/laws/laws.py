@@ -5,7 +5,8 @@
 
 TOOL is build/release/apps/firstcontact by default. FOLDER has laws_bullet and laws_mujoco, where these were
 built. The order is that of the last three steps at which the error is above the noise. Where the simulator takes
-long steps in parts, it is that of further halvings. The exit status is 1 where one is below what the row asks for. With --update-docs the table goes into docs/physics.md.
+long steps in parts, it is that of further halvings. The exit status is 1 where one is below what the row asks for.
+With --update-docs the table goes into docs/physics.md.
 """
 
 import argparse

@@ -12,6 +12,7 @@
 
 #include <firstcontact/mechanism/detail/spatial.h>
 #include <firstcontact/motion/detail/turn.h>
+#include <firstcontact/robot/detail/mimicked_joint.h>
 
 namespace firstcontact {
 namespace {
@@ -187,18 +188,9 @@ void Mechanism::lay_out(bool free_base) {
     }
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    // A chain of mimics ends at a joint of its own: the model has no loop.
-    std::size_t followed = j;
-    Part part;
-    while (joints[followed].mimic) {
-      const Mimic& mimic = *joints[followed].mimic;
-      part.offset += part.multiplier * mimic.offset;
-      part.multiplier *= mimic.multiplier;
-      followed = *model_.find_joint(mimic.joint);
-    }
+    const auto [followed, multiplier, offset] = detail::mimicked_joint(model_, j);
     if (followed != j) {
-      part.block = parts_[followed].block;
-      parts_[j] = part;
+      parts_[j] = {.block = parts_[followed].block, .multiplier = multiplier, .offset = offset};
     }
   }
   order_.push_back(model_.root());

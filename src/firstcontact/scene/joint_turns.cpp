@@ -5,27 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/robot/detail/mimicked_joint.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
-
-/// By how much a joint turns or slides while the joint that it follows in the end, through others
-/// that mimic it, turns by 1; and which that is.
-struct Following {
-  std::size_t source = 0;
-  double multiplier = 1.0;
-};
-
-Following following(const RobotModel& robot, std::size_t joint) {
-  Following result{.source = joint};
-  while (const std::optional<Mimic>& mimic = robot.joints()[result.source].mimic) {
-    result.multiplier *= mimic->multiplier;
-    result.source = robot.find_joint(mimic->joint).value();
-  }
-  return result;
-}
 
 /// Whether a joint that mimics this one, or mimics one that does, is elsewhere after a whole turn.
 bool shows_whole_turns(const RobotModel& robot, std::size_t joint) {
@@ -34,11 +19,11 @@ bool shows_whole_turns(const RobotModel& robot, std::size_t joint) {
     if (!follower.mimic) {
       continue;
     }
-    const Following of = following(robot, k);
+    const detail::MimickedJoint of = detail::mimicked_joint(robot, k);
     const bool turns_about =
         follower.type == JointType::revolute || follower.type == JointType::continuous;
     const bool is_whole = turns_about && std::trunc(of.multiplier) == of.multiplier;
-    if (of.source == joint && of.multiplier != 0.0 && !is_whole) {
+    if (of.joint == joint && of.multiplier != 0.0 && !is_whole) {
       return true;
     }
   }

@@ -5,26 +5,10 @@
 #include <optional>
 #include <variant>
 
+#include <firstcontact/robot/detail/mimicked_joint.h>
+
 namespace firstcontact::detail {
 namespace {
-
-/// A joint as a function of the one that it mimics: multiplier q + offset. Of itself where it
-/// mimics none.
-struct Following {
-  std::size_t leader = 0;
-  double multiplier = 1.0;
-  double offset = 0.0;
-};
-
-Following following(const RobotModel& model, std::size_t joint) {
-  Following found{.leader = joint};
-  while (const std::optional<Mimic>& mimic = model.joints()[found.leader].mimic) {
-    found.offset += found.multiplier * mimic->offset;
-    found.multiplier *= mimic->multiplier;
-    found.leader = model.find_joint(mimic->joint).value();
-  }
-  return found;
-}
 
 double size_of(const CoordinatePath& path) {
   double size = 0.0;
@@ -53,14 +37,14 @@ RobotSizes robot_sizes(const RobotMotion& rest, std::size_t mover,
                        std::span<const double> of_coordinates) {
   const RobotModel& model = rest.model();
   RobotSizes sizes;
-  const auto add = [&](const Joint& joint, const Following& follows, std::size_t index) {
+  const auto add = [&](const Joint& joint, const MimickedJoint& follows, std::size_t index) {
     const auto planned = std::ranges::find_if(coordinates, [&](const SpaceCoordinate& one) {
-      return one.mover == mover && one.joint == follows.leader && one.index == index;
+      return one.mover == mover && one.joint == follows.joint && one.index == index;
     });
     const bool is_planned = planned != coordinates.end();
     const double leads =
         is_planned ? of_coordinates[static_cast<std::size_t>(planned - coordinates.begin())]
-                   : size_at_rest(rest.given(follows.leader).value(), index);
+                   : size_at_rest(rest.given(follows.joint).value(), index);
     const double size = std::abs(follows.multiplier) * leads + std::abs(follows.offset);
     const bool slides = is_slide(joint.type, index);
     const double pitch = joint.type == JointType::screw ? std::abs(joint.pitch) : 0.0;
@@ -72,7 +56,7 @@ RobotSizes robot_sizes(const RobotMotion& rest, std::size_t mover,
   for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
     const JointType type = model.joints()[joint].type;
     for (std::size_t index = 0; index < coordinate_count(type); ++index) {
-      add(model.joints()[joint], following(model, joint), index);
+      add(model.joints()[joint], mimicked_joint(model, joint), index);
     }
     if (type == JointType::floating) {
       const std::optional<JointMotion> given = rest.given(joint);

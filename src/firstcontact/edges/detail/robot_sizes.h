@@ -22,9 +22,9 @@ struct RobotSizes {
   double slides = 0.0;          ///< [m]  Of all joints that slide, those that rest included.
 };
 
-/// @param rest            has a motion for every joint that moves; those that no edge moves rest
-/// @param mover           the robot, as coordinates number it
-/// @param of_coordinates  [rad or m]  a bound of the size of each coordinate
+/// @param rest            A motion for every joint that moves. Those that no edge moves rest.
+/// @param mover           The robot, as coordinates number it.
+/// @param of_coordinates  [rad or m]  A bound of the size of each coordinate.
 [[nodiscard]] RobotSizes robot_sizes(const RobotMotion& rest, std::size_t mover,
                                      std::span<const SpaceCoordinate> coordinates,
                                      std::span<const double> of_coordinates);

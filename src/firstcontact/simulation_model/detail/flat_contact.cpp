@@ -1,6 +1,6 @@
 #include <firstcontact/simulation_model/detail/flat_contact.h>
 
-#include <cstddef>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/robot/detail/mimicked_joint.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/links_as_bodies.h>
@@ -155,7 +156,8 @@ class RobotMaker {
       if (!joint.mimic) {
         continue;
       }
-      const auto [followed, multiplier, offset] = followed_by(joint);
+      const auto [followed, multiplier, offset] =
+          mimicked_joint(model_, model_.find_joint(joint.name).value());
       if (followed != leader) {
         continue;
       }
@@ -164,23 +166,6 @@ class RobotMaker {
       law.friction += std::abs(multiplier) * joint.friction;
       narrow(limits_of(joint, multiplier * q + offset), multiplier, offset, law.limits);
     }
-  }
-
-  /// The joint at the end of a chain of mimics: a coordinate there is multiplier q + offset here.
-  struct Followed {
-    std::size_t joint;
-    double multiplier = 1.0;  // [-]
-    double offset = 0.0;      // [rad or m]
-  };
-
-  [[nodiscard]] Followed followed_by(const Joint& joint) const {
-    Followed found{.joint = *model_.find_joint(joint.name)};
-    while (const std::optional<Mimic>& mimic = model_.joints()[found.joint].mimic) {
-      found.offset += found.multiplier * mimic->offset;
-      found.multiplier *= mimic->multiplier;
-      found.joint = *model_.find_joint(mimic->joint);
-    }
-    return found;
   }
 
   /// Narrows limits of a coordinate to those of multiplier q + offset.
