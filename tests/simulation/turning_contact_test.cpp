@@ -54,6 +54,31 @@ TEST(TurningContact, ABlockStaysOnATurntable) {
   }
 }
 
+// The contact goes with the ball over the table, and the table is faster farther out: the ball
+// rolls in a circle at two sevenths of the table's rate. With a point of the table it spiralled
+// inwards, 23 mm in a turn at 10 ms.
+TEST(TurningContact, ABallRollsInACircleOnATurntable) {
+  constexpr double kRate = 2.0 * 2.0 / 7.0;  // [rad/s]  Of the circle, on a table at 2 rad/s.
+  constexpr double kSpeed = 0.3;
+  constexpr double kAround = kSpeed / kRate;
+  const std::string table = R"({"name": "table", "shape": {"box": {"size": [4, 4, 0.1]}},
+      "motion": {"type": "constant_velocity", "from": {"position": [0, 0, -0.05]},
+                 "rotation_vector": [0, 0, 6]}, "surface": {"friction": 1}})";
+  // It rolls at the start: the table is at rest at its centre.
+  const std::string rolling = body("ball", ball("0.05"), "[0, 0, 0.050001]",
+                                   R"(, "dynamics": {"linear_velocity": [0.3, 0, 0],
+                                       "angular_velocity": [0, 6, 0]})");
+  for (const double step : {0.02, 0.01, 0.005}) {
+    Simulator s =
+        simulator(table + ", " + rolling, R"("duration": 3, )" + settings(step, 1.0, 1e-6));
+    const RunBody end = run(s, static_cast<std::size_t>(std::lround(3.0 / step))).back().bodies[1];
+    const double turned = 3.0 * kRate;
+    const Vector3d right(kAround * std::sin(turned), kAround * (1.0 - std::cos(turned)), 0.050001);
+    EXPECT_LT((end.X_WB.position - right).norm(), 1.5 * step * step + 2e-5) << step;
+    EXPECT_NEAR(end.linear_velocity.norm(), kSpeed, 0.5 * step * step) << step;
+  }
+}
+
 // What a belt carries on a table that turns goes straight out as the table sees it. The belt's
 // direction of the begin of a step led it, so it lagged by a step: 5e-3 m at 10 ms.
 TEST(TurningContact, ABeltOnATurntableCarriesABlockOutwards) {

@@ -68,18 +68,6 @@ inline double time_positive(const ValueAndRate& g, const CurvatureBound& bound) 
                        0.5 * bound.curvature);
 }
 
-/// Whether g provably stays positive for `duration`, or has been for as long where that is
-/// negative.
-///
-/// A parabola that opens downwards is least at an end.
-inline bool positive_for(const ValueAndRate& g, const CurvatureBound& bound, double duration) {
-  const double length = std::abs(duration);
-  const double clear = g.value - bound.value_error;
-  const double way = g.rate * duration;
-  const double loss = (bound.rate_error + 0.5 * bound.curvature * length) * length;
-  return clear > 0.0 && clear + way - loss > 0x1p-49 * (clear + std::abs(way) + loss);
-}
-
 /// An interval around x with one root of g, where `exists`.
 ///
 /// On [x - behind, x + ahead] g has one root and falls throughout. On [x - reach, x - behind) g is

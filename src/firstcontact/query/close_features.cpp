@@ -6,6 +6,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/detail/order.h>
@@ -17,7 +18,7 @@ namespace {
 void require(bool condition, const char* what, double value) {
   if (!condition) {
     throw std::invalid_argument(std::string("close_features: ") + what + ", got " +
-                                std::to_string(value));
+                                detail::shortest(value));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/shape_pair.h>
@@ -79,7 +80,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
                                        const ClosestApproachOptions& options) {
   if (!(options.tolerance > 0.0 && std::isfinite(options.tolerance))) {
     throw std::invalid_argument("ClosestApproachOptions::tolerance must be finite and > 0, got " +
-                                std::to_string(options.tolerance));
+                                detail::shortest(options.tolerance));
   }
   const FloatEnvironmentGuard guard;
   ClosestApproachResult best;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/nearest_triangles.h>
@@ -32,7 +33,7 @@ double distance_of_triangles(const Shape& A, const Shape& B, const PairMotion& m
 
 DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace) {
   if (!(t >= 0.0 && t <= 1.0)) {
-    throw std::invalid_argument("distance: t must lie in [0, 1], got " + std::to_string(t));
+    throw std::invalid_argument("distance: t must lie in [0, 1], got " + detail::shortest(t));
   }
   const FloatEnvironmentGuard guard;
   const auto& [A, B, motion] = shapes;

@@ -9,6 +9,7 @@
 
 #include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/moving_pairs/detail/convex_leaf.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
@@ -30,7 +31,7 @@ using detail::MovingPair;
 void require_range(bool holds, const char* option, const char* range, double value) {
   if (!holds) {
     throw std::invalid_argument(std::string("FirstContactOptions::") + option + " must be " +
-                                range + ", got " + std::to_string(value));
+                                range + ", got " + detail::shortest(value));
   }
 }
 

@@ -6,14 +6,13 @@
 #include <filesystem>
 #include <string>
 
+#include <firstcontact/text/ascii.h>
+
 namespace firstcontact::detail {
 
 /// In lower case, without the point.
 inline std::string file_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  }
+  const std::string extension = lower(path.extension().string());
   return extension.empty() ? extension : extension.substr(1);
 }
 

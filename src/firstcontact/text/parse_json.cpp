@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_double.h>
 #include <firstcontact/text/utf8.h>
@@ -135,10 +136,8 @@ class JsonParser {
   }
 
   [[noreturn]] void fail_at_value(std::string_view word) const {
-    std::string lower(word);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    if (lower.starts_with("nan") || lower.starts_with("inf")) {
+    const std::string begun = lower(word.substr(0, 3));
+    if (begun == "nan" || begun == "inf") {
       fail("expected a finite number, got " + next_word() + "; JSON has no NaN and no infinity");
     }
     if (at('/')) {

@@ -32,7 +32,8 @@ struct TextSyntax {
   bool continuation = false;  ///< A backslash at its end joins the next line.
 };
 
-/// A position in a text. Blanks are skipped before each item; a line ends at its line feed only.
+/// A position in a text. Blanks are skipped before each item. A line ends at its line feed; in a
+/// text that has none, at its carriage return.
 class TextCursor {
  public:
   TextCursor(std::string_view text, const std::string& source, TextSyntax syntax,
@@ -41,14 +42,15 @@ class TextCursor {
         end_(text.data() + text.size()),
         line_(first_line),
         source_(source),
-        syntax_(syntax) {}
+        syntax_(syntax),
+        feed_(text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n') {}
 
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - next_); }
 
   [[nodiscard]] bool at_line_end() {
     skip_blanks();
-    return next_ == end_ || *next_ == '\n' || is_comment(next_);
+    return next_ == end_ || *next_ == feed_ || is_comment(next_);
   }
 
   /// Goes to the next line that holds something; false at the end of the text. On a line with
@@ -65,7 +67,7 @@ class TextCursor {
 
   /// Leaves the rest of the line.
   void skip_line() {
-    while (next_ != end_ && *next_ != '\n') {
+    while (next_ != end_ && *next_ != feed_) {
       ++next_;
     }
     if (next_ != end_) {
@@ -146,8 +148,8 @@ class TextCursor {
   [[noreturn]] void fail_at_word(const std::string& what);
 
  private:
-  static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  [[nodiscard]] bool is_blank(char c) const {
+    return c != feed_ && (c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f');
   }
 
   [[nodiscard]] bool is_comment(const char* p) const { return syntax_.comments && *p == '#'; }
@@ -157,14 +159,14 @@ class TextCursor {
     if (!syntax_.continuation || *p != '\\') {
       return 0;
     }
-    if (end_ - p > 1 && p[1] == '\n') {
+    if (end_ - p > 1 && p[1] == feed_) {
       return 2;
     }
     return end_ - p > 2 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
   }
 
   [[nodiscard]] bool is_delimiter(const char* p) const {
-    return p == end_ || is_blank(*p) || *p == '\n' || is_comment(p) || continuation(p) != 0;
+    return p == end_ || is_blank(*p) || *p == feed_ || is_comment(p) || continuation(p) != 0;
   }
 
   void skip_blanks() {
@@ -191,6 +193,7 @@ class TextCursor {
   std::size_t line_;
   const std::string& source_;
   TextSyntax syntax_;
+  char feed_;
 };
 
 }  // namespace firstcontact::detail

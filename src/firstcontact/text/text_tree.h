@@ -4,17 +4,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 
-/// The extension of a file in lower case: ".yaml" of "A.YAML".
-[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
-
-/// Whether an extension is one of JSON or YAML.
+/// Whether an extension, as file_extension() has it, is one of JSON or YAML.
 [[nodiscard]] bool is_tree_extension(std::string_view extension);
 
 /// Parses a text as JSON where the extension is .json, else as YAML.

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_double.h>
 
@@ -16,8 +17,6 @@ constexpr double kGreatestNumber = 1e9;
 constexpr std::size_t kShownCharacters = 40;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// In quotes, and what cannot be shown as a dot.
 std::string shown(std::string_view word) {

@@ -1,9 +1,9 @@
 #include <firstcontact/text/xml_names.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/edit_distance.h>
 #include <firstcontact/text/text_cursor.h>
 
@@ -18,13 +18,6 @@ const HarmlessName* find(const std::vector<HarmlessName>& names, std::string_vie
   const auto found = std::find_if(names.begin(), names.end(),
                                   [&](const HarmlessName& known) { return known.name == name; });
   return found == names.end() ? nullptr : &*found;
-}
-
-std::string lower(std::string_view name) {
-  std::string text(name);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 std::string listed(const std::vector<std::string_view>& names) {
@@ -187,7 +180,7 @@ void XmlNameCheck::check_text(const XmlElement& element) const {
 /// Also "Link", "link1", and "loop_joint" with parts.
 bool XmlNameCheck::tells(const XmlElement& stranger) const {
   std::string word = lower(without_prefix(stranger.Name()));
-  while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back())) != 0) {
+  while (!word.empty() && word.back() >= '0' && word.back() <= '9') {
     word.pop_back();
   }
   return holds(telling_.in_place, word) || holds(telling_.anywhere, word) ||

@@ -8,6 +8,7 @@
 
 #include <firstcontact/text/read_double.h>
 #include <firstcontact/text/text_cursor.h>
+#include <firstcontact/text/xml_encoding.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -81,7 +82,8 @@ XmlReader::XmlReader(std::string_view text, std::string source) : source_(std::m
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
     throw ParseError::at_byte(source_, zero, "expected text, got a zero byte");
   }
-  if (document_.Parse(text.data(), text.size()) == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+  const std::string utf8 = utf8_of_xml(text, source_);
+  if (document_.Parse(utf8.data(), utf8.size()) == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
     fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
                  "expected at most " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) +
                      " elements inside of each other, got more");
@@ -114,7 +116,12 @@ const XmlElement& XmlReader::root(const char* name) const {
     throw ParseError(source_, "expected an element <" + std::string(name) + ">, got none");
   }
   if (std::string_view(root->Name()) != name) {
-    fail(*root, "expected <" + std::string(name) + "> as the outermost element");
+    const std::string_view found = root->Name();
+    const bool is_other = found == "mujoco" || found == "sdf";
+    fail(*root, "expected <" + std::string(name) + "> as the outermost element" +
+                    (is_other ? ", got " + std::string(found == "sdf" ? "SDF" : "MJCF") +
+                                    ", which is not read; convert it to URDF"
+                              : ""));
   }
   for (const tinyxml2::XMLNode* node = document_.FirstChild(); node != nullptr;
        node = node->NextSibling()) {

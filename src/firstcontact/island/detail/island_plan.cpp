@@ -5,7 +5,6 @@
 
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/island_ties.h>
-#include <firstcontact/island/detail/tied_energy.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/constants.h>
@@ -124,14 +123,14 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
   made.least = least - drift_along(touch.bodies, made.now) / span_;
   if (most_change(made.now, sides, span_) <= kLeastTolerance) {
-    made.change_of_belt = change_of_belt(made.now, touch.bodies, sides, made.now.frame);
+    made.change_of_belt = change_of_belt(touch, made.now, sides, made.now.frame);
     return made;
   }
   const double distance = distance_of(touch);
   made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
   const MovedContact there = moved_contact(touch, made.now, distance, sides, span_);
   made.change = there.velocity(sides) - made.halfway.velocity(sides);
-  made.change_of_belt = change_of_belt(made.now, touch.bodies, sides, there.frame);
+  made.change_of_belt = change_of_belt(touch, made.now, sides, there.frame);
   return made;
 }
 
@@ -139,18 +138,20 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
 /// with their bodies, and carry the contact to where these move otherwise.
 ///
 /// @param frame  of the contact there
-Eigen::Vector2d IslandPlanner::change_of_belt(const ContactPoint& now, const BodyPair& pair,
+Eigen::Vector2d IslandPlanner::change_of_belt(const ManifoldPoint& touch, const ContactPoint& now,
                                               const std::array<ContactSide, 2>& sides,
                                               const Eigen::Matrix3d& frame) const {
   Eigen::Vector2d there = Eigen::Vector2d::Zero();
   bool runs = false;
   for (std::size_t s = 0; s < 2; ++s) {
-    const Vector3d& belt = state_.model.laws.belt(pair[s]);
+    const Vector3d& belt = state_.model.laws.belt(touch.bodies[s]);
     if (belt.any()) {
       const Vector3d& w = sides[s].w;
       const Vector3d now_running = sides[s].R_WB * belt;
       const Vector3d carried = span_ * (turn(0.5 * span_ * w) * now_running);
-      const Vector3d running = turn(span_ * w) * now_running + w.cross(carried);
+      // Where the contact goes over a face, its way is that of what it meets.
+      const Vector3d by_way = goes_over(touch, sides, s) ? Vector3d::Zero() : w.cross(carried);
+      const Vector3d running = turn(span_ * w) * now_running + by_way;
       there += (s == 0 ? 1.0 : -1.0) * (frame * running).tail<2>();
       runs = true;
     }
@@ -257,7 +258,10 @@ void IslandPlanner::solve() {
   }
 }
 
-Plan IslandPlanner::plan() {
+/// Finds the impulses: where the rules of the plan and its curves agree with them.
+///
+/// @returns whether those of ties were found
+bool IslandPlanner::find_solution() {
   if (!state_.robots.empty()) {
     choose_rules();
   }
@@ -283,20 +287,34 @@ Plan IslandPlanner::plan() {
   }
   const bool finds_ties = ties_.empty() || follow_ties();
   end_spins();
+  return finds_ties;
+}
+
+/// The motions that the impulses give to free bodies; those of robots follow.
+Plan IslandPlanner::plan_of_bodies(const std::vector<bool>& by_end) {
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies,
             .residual = solution.residual,
             .is_limited = last_->is_limited,
-            .is_solved = last_->slips || is_solved(state_, solution),
-            .finds_ties = finds_ties};
+            .is_solved = last_->slips || is_solved(state_, solution)};
   made.at_end.resize(state_.size());
-  const std::vector<bool> by_end = led_by_end();
   const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&
                          !is_heap(state_, problem_.contacts.size()) && any_turns();
   const std::vector<ContactBody> after = by_chords ? along_chords().bodies : solution.bodies;
+  const std::vector<std::optional<std::size_t>> carriers = this->carriers();
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    made.moves.push_back(move_of(k, by_end[k], after[k]));
+    const Vector3d turning = carriers[k] ? solution.bodies[*carriers[k]].w : Vector3d::Zero();
+    made.moves.push_back(move_of(k, by_end[k], turning, after[k]));
   }
+  return made;
+}
+
+Plan IslandPlanner::plan() {
+  const bool finds_ties = find_solution();
+  const ContactSolution& solution = last_->velocities;
+  const std::vector<bool> by_end = led_by_end();
+  Plan made = plan_of_bodies(by_end);
+  made.finds_ties = finds_ties;
   std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
   std::vector<OuterImpulse> changes = outer;
@@ -306,21 +324,11 @@ Plan IslandPlanner::plan() {
   made.ties = ties_.impulses(solution.ties);
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes, plan_span());
   shift_robots(made);
-  state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
+  state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
   if (leads_nowhere(made)) {
     made.tears_ties = true;
-    return made;
-  }
-  keep_on_curves(made);
-  push_apart(made);
-  settle_ties(made);
-  carry_back(made);
-  state_.robots.keep_momenta(outer, span_, made.robots);
-  state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
-  if (!state_.ties.empty()) {
-    made.tears_ties = leads_nowhere(made) || tears_ties(state_, made, span_);
-    made.finds_ties =
-        made.finds_ties && (made.tears_ties || keeps_tied_energy(state_, made, solution, span_));
+  } else {
+    settle(outer, made);
   }
   return made;
 }
@@ -333,13 +341,19 @@ std::vector<ManifoldPoint> IslandPlanner::touches() const {
   return touches;
 }
 
+/// [-]  How much of its links' drift a plan makes up for. All of it in a short plan would be a
+/// speed that contacts answer: 30 um in a nanosecond.
+double IslandPlanner::share_of_drift() const {
+  return std::min(1.0, span_ / (kSpanOfDrift * state_.start.h));
+}
+
 /// [m]  What the drift of links adds to the way along a contact's normal.
 double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
   double way = 0.0;
   for (int side = 0; side < 2; ++side) {
     if (state_.model.bodies[pair[side]].link_body) {
       const std::size_t k = state_.place.at(pair[side]);
-      const Move drift = state_.robots.drift(k, state_.states[k].X_WB);
+      const Move drift = state_.robots.drift(k, state_.states[k].X_WB).part(share_of_drift());
       const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
       const Vector3d at_contact = drift.translation + drift.rotation_vector.cross(arm);
       way += (side == 0 ? -1.0 : 1.0) * contact.frame.row(0).dot(at_contact);
@@ -454,6 +468,10 @@ std::vector<bool> IslandPlanner::led_by_end() const {
       by_end[contact.bodies[0]] = true;
       by_end[contact.bodies[1]] = true;
     }
+  } else if (!state_.robots.empty()) {
+    const std::vector<std::optional<std::size_t>> carriers = this->carriers();
+    std::transform(carriers.begin(), carriers.end(), by_end.begin(),
+                   [](const auto& carrier) { return carrier.has_value(); });
   }
   return by_end;
 }
@@ -461,18 +479,21 @@ std::vector<bool> IslandPlanner::led_by_end() const {
 /// How a member moves that has a velocity where the plan ends. The move of a link body is one of
 /// its robot.
 ///
-/// @param by_end  whether that velocity leads it, or the mean of those at both ends
-Move IslandPlanner::move_of(std::size_t k, bool by_end, const ContactBody& after) const {
+/// @param by_end   whether that velocity leads it, or the mean of those at both ends
+/// @param turning  [rad/s]  of what carries it: halfway the velocity has turned by half of it less
+Move IslandPlanner::move_of(std::size_t k, bool by_end, const Vector3d& turning,
+                            const ContactBody& after) const {
   const ContactBody& before = bodies_.bodies()[k];
   const Vector3d& w_free = flight_.at_end[k].w;
   if (by_end) {
-    const Vector3d turn = after.w - 0.5 * (before.w + w_free);
-    return {span_ * after.v, flight_.rotation_vectors[k] + span_ * turn};
+    const Vector3d change = after.w - 0.5 * (before.w + w_free);
+    return {span_ * (turn(-0.5 * span_ * turning) * after.v),
+            flight_.rotation_vectors[k] + span_ * change};
   }
   const Move shift = ties_.shift(k);
-  const Vector3d turn = 0.5 * (after.w - w_free);
+  const Vector3d change = 0.5 * (after.w - w_free);
   return {0.5 * span_ * (before.v + after.v) + shift.translation,
-          flight_.rotation_vectors[k] + span_ * turn + shift.rotation_vector};
+          flight_.rotation_vectors[k] + span_ * change + shift.rotation_vector};
 }
 
 }  // namespace firstcontact::detail

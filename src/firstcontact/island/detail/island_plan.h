@@ -135,6 +135,9 @@ class IslandPlanner {
     double most = 0.0;     // [m]  A displacement for it is no longer; 0: there is none.
   };
 
+  [[nodiscard]] bool find_solution();
+  [[nodiscard]] Plan plan_of_bodies(const std::vector<bool>& by_end);
+  void settle(const std::vector<OuterImpulse>& outer, Plan& made);
   [[nodiscard]] FreeFlight free_flight() const;
   [[nodiscard]] bool acts(std::size_t k) const;
   [[nodiscard]] double slack_of_mean() const;
@@ -164,7 +167,7 @@ class IslandPlanner {
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
-  [[nodiscard]] Eigen::Vector2d change_of_belt(const ContactPoint& now, const BodyPair& pair,
+  [[nodiscard]] Eigen::Vector2d change_of_belt(const ManifoldPoint& touch, const ContactPoint& now,
                                                const std::array<ContactSide, 2>& sides,
                                                const Eigen::Matrix3d& frame) const;
   [[nodiscard]] ContactSide side_of(const ManifoldPoint& touch, std::size_t side) const;
@@ -172,13 +175,16 @@ class IslandPlanner {
   [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;
   [[nodiscard]] std::optional<std::size_t> find(const PredictedContact& ahead) const;
   void solve();
+  [[nodiscard]] double share_of_drift() const;
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
   [[nodiscard]] bool mean_is_allowed() const;
   [[nodiscard]] bool stops_early(std::size_t first, std::size_t end) const;
   [[nodiscard]] bool any_turns() const;
   [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
-  [[nodiscard]] Move move_of(std::size_t k, bool by_end, const ContactBody& after) const;
+  [[nodiscard]] std::vector<std::optional<std::size_t>> carriers() const;
+  [[nodiscard]] Move move_of(std::size_t k, bool by_end, const Eigen::Vector3d& turning,
+                             const ContactBody& after) const;
   [[nodiscard]] bool is_on_curve(std::size_t k) const;
   [[nodiscard]] double distance_of(const ManifoldPoint& touch) const;
   void displace(const ContactSolution& displacement, Plan& plan) const;

@@ -130,6 +130,39 @@ bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
   return true;
 }
 
+/// The link that each member goes with, of robots that velocities at the end lead: its own, or that
+/// on which it presses. Led by the mean of its velocities, a part in a gripper would slip by half
+/// of what its velocity changes in a plan.
+std::vector<std::optional<std::size_t>> IslandPlanner::carriers() const {
+  std::vector<std::optional<std::size_t>> carriers(state_.size());
+  bool has_more = false;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (is_link_body(k) && robots_by_end_[state_.robots.robot_of(k)]) {
+      carriers[k] = k;
+      has_more = true;
+    }
+  }
+  while (has_more && last_) {
+    has_more = false;
+    for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+      const auto& [a, b] = problem_.contacts[k].bodies;
+      const bool presses = !last_->velocities.impulses[k].isZero(0.0);
+      if (!presses || a >= state_.size() || b >= state_.size() ||
+          carriers[a].has_value() == carriers[b].has_value()) {
+        continue;
+      }
+      const std::size_t carried = carriers[a] ? b : a;
+      const bool is_tied =
+          !state_.ties.empty() && !state_.model.ties_of[state_.members[carried]].empty();
+      if (is_link_body(carried) || !is_tied) {
+        carriers[carried] = carriers[carriers[a] ? a : b];
+        has_more = true;
+      }
+    }
+  }
+  return carriers;
+}
+
 /// [rad]  By how much the link that turns fastest now turns in the plan.
 double IslandPlanner::turn_of_links() const {
   return kMostTurnOfLinks * span_ / state_.robots.longest_span();

@@ -7,6 +7,8 @@
 #include <firstcontact/island/detail/island_plan.h>
 #include <firstcontact/island/detail/island_response.h>
 #include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
+#include <firstcontact/island/detail/tied_energy.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -45,7 +47,7 @@ void IslandPlanner::lay_ties() {
   const std::vector<bool> by_end = led_by_end();
   std::vector<Move> moves;
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    moves.push_back(move_of(k, by_end[k], flight_.at_end[k]));
+    moves.push_back(move_of(k, by_end[k], Vector3d::Zero(), flight_.at_end[k]));
   }
   ties_.lay(bodies_, {moves, flights_, by_end, at_end, spinning}, problem_);
   laid_by_end_ = by_end_;
@@ -207,7 +209,7 @@ void IslandPlanner::settle_ties(Plan& plan) const {
   }
   const double tolerance = kApartOfDistance * state_.model.distances.least;
   for (int round = 0; round < kRoundsOfSettling; ++round) {
-    state_.robots.set_moves(plan.robots, state_.states, span_, plan.moves);
+    state_.robots.set_moves(plan.robots, state_.states, span_, share_of_drift(), plan.moves);
     std::vector<Pose> at_end;
     for (std::size_t k = 0; k < state_.size(); ++k) {
       at_end.push_back(motion_of(state_.member(k), state_.states[k].X_WB, plan.moves[k]).pose(1.0));
@@ -235,6 +237,25 @@ void IslandPlanner::settle_ties(Plan& plan) const {
       plan.moves[k].rotation_vector += way.bodies[k].w;
     }
     state_.robots.displace(way.mechanisms, plan.robots);
+  }
+}
+
+/// Brings a plan to where contacts and ties have it to second order, and judges what it does to
+/// ties.
+///
+/// @param outer  impulses on robots, of all that the plan has
+void IslandPlanner::settle(const std::vector<OuterImpulse>& outer, Plan& made) {
+  keep_on_curves(made);
+  push_apart(made);
+  settle_ties(made);
+  carry_back(made);
+  state_.robots.keep_momenta(outer, span_, made.robots);
+  state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
+  if (!state_.ties.empty()) {
+    made.tears_ties = leads_nowhere(made) || tears_ties(state_, made, span_);
+    made.finds_ties =
+        made.finds_ties &&
+        (made.tears_ties || keeps_tied_energy(state_, made, last_->velocities, span_));
   }
 }
 

@@ -47,14 +47,6 @@ void add_joint_now(IslandState& state, const SimTie& tie, const ProblemBodies& b
   }
 }
 
-double velocity_of(const TieRow& row, const std::vector<ContactBody>& bodies) {
-  double u = 0.0;
-  for (const TieSide& side : row.sides) {
-    u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
-  }
-  return u;
-}
-
 /// Where a tie is, a share of a plan ahead.
 TiePlace place_ahead(IslandState& state, const SimTie& tie, const Plan& plan, double span,
                      double share) {
@@ -119,6 +111,14 @@ TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& s
     row.sides.push_back(made);
   }
   return row;
+}
+
+double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
+  double u = 0.0;
+  for (const TieSide& side : row.sides) {
+    u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
+  }
+  return u;
 }
 
 bool may_be_redundant(const IslandState& state) {
@@ -232,7 +232,7 @@ bool any_tie_is_hit(IslandState& state) {
   add_tied_bodies(state, bodies);
   const double slow = std::max(slowest_bounce(state), 100.0 * kLeastTolerance);
   return std::ranges::any_of(rigid_rows(state, bodies), [&](const TieRow& row) {
-    const double u = velocity_of(row, bodies.bodies());
+    const double u = speed_along(row, bodies.bodies());
     return u > slow || (row.greatest > 0.0 && u < -slow);
   });
 }

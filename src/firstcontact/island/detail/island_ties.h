@@ -35,6 +35,9 @@ struct TiedSide {
 /// The row of a direction.
 [[nodiscard]] TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& sides);
 
+/// [m/s or rad/s]  How fast its sides part along a row, as bodies of a problem move.
+[[nodiscard]] double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies);
+
 /// Whether a cable is as long as it gets, or nearly so.
 [[nodiscard]] bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place);
 

@@ -9,6 +9,7 @@
 
 #include <firstcontact/contact_solver/detail/tie_rows.h>
 #include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/island/detail/island_ties.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/response.h>
@@ -47,14 +48,6 @@ std::vector<TieDirection> axes_of_line(const Vector3d& now, const Vector3d& end)
   }
   across.normalize();
   return {{.linear = along}, {.linear = across}, {.linear = along.cross(across)}};
-}
-
-double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
-  double u = 0.0;
-  for (const TieSide& side : row.sides) {
-    u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
-  }
-  return u;
 }
 
 /// [m]  How far displacements of robots lead along a row.

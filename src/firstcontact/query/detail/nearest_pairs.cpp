@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/math/cell_hash.h>
+#include <firstcontact/query/detail/facing_cell.h>
 
 namespace firstcontact::detail {
 namespace {
-
-using Eigen::Vector3d;
-
-/// Where a pair is: the cube of its middle, and the octant of the direction from A to B.
-using Neighbourhood = std::array<std::int64_t, 4>;
 
 /// The nearest pairs of one neighbourhood, by distance, then by where they were in the list.
 struct Nearest {
@@ -36,23 +29,14 @@ struct Nearest {
   }
 };
 
-Neighbourhood neighbourhood(const ClosestFeatures& closest, double edge) {
-  const Vector3d n = closest.p_B - closest.p_A;
-  Neighbourhood place{0, 0, 0,
-                      (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
-  for (int k = 0; k < 3; ++k) {
-    place[static_cast<std::size_t>(k)] = cell_along(closest.p_A[k], edge);
-  }
-  return place;
-}
-
 /// The nearest pairs of each neighbourhood.
 class NearestOfPlaces {
  public:
   explicit NearestOfPlaces(double edge) : edge_(edge) {}
 
   void add(const ClosestFeatures& closest, std::size_t pair) {
-    nearest_[neighbourhood(closest, edge_)].add({closest.distance, pair});
+    nearest_[facing_cell(closest.p_A, closest.p_B - closest.p_A, edge_)].add(
+        {closest.distance, pair});
   }
 
   /// In the order of the pairs.
@@ -71,7 +55,7 @@ class NearestOfPlaces {
 
  private:
   double edge_;
-  std::unordered_map<Neighbourhood, Nearest, CellHash> nearest_;
+  std::unordered_map<FacingCell, Nearest, CellHash> nearest_;
 };
 
 template <class Pair>

@@ -368,7 +368,7 @@ void IslandRobots::displace(const std::vector<VectorXd>& by, std::vector<RobotPl
 }
 
 void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
-                             const std::vector<RigidState>& states, double span,
+                             const std::vector<RigidState>& states, double span, double made_up,
                              std::vector<Move>& moves) const {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
@@ -379,6 +379,11 @@ void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
       const Vector3d w = (robot.now.links[k].J * mean).tail<3>();
       moves[member] =
           move_between(*body, states[member].X_WB, link_body_pose(*body, there), span * w);
+      if (made_up < 1.0) {
+        const Move left = drift(member, states[member].X_WB).part(1.0 - made_up);
+        moves[member].translation -= left.translation;
+        moves[member].rotation_vector -= left.rotation_vector;
+      }
     }
   }
 }

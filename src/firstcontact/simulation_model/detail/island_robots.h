@@ -214,8 +214,10 @@ class IslandRobots {
   void displace(const std::vector<Eigen::VectorXd>& by, std::vector<RobotPlan>& plans) const;
 
   /// Sets the moves that lead the link bodies to where a plan has them.
+  ///
+  /// @param made_up  [-]  the share of drift() that they make up for
   void set_moves(const std::vector<RobotPlan>& plans, const std::vector<RigidState>& states,
-                 double span, std::vector<Move>& moves) const;
+                 double span, double made_up, std::vector<Move>& moves) const;
 
   /// [-]  How far plans may be followed before a joint leaves its limits.
   [[nodiscard]] double share_within_limits(const std::vector<RobotPlan>& plans) const;

@@ -36,6 +36,24 @@ double number_at(const std::vector<TimedNumber>& target, double time) {
   return before.number + share * (next->number - before.number);
 }
 
+/// The mean of the lines between the numbers over a span, however short what happens in it.
+double mean_over(const std::vector<TimedNumber>& target, double from, double length) {
+  double time = from;
+  double number = number_at(target, from);
+  double sum = 0.0;
+  auto next = std::ranges::upper_bound(target, from, {}, &TimedNumber::time);
+  for (; next != target.end() && next->time < from + length; ++next) {
+    sum += 0.5 * (next->time - time) * (number + next->number);
+    time = next->time;
+    number = next->number;
+  }
+  const double rest = from + length - time;
+  const double rate = next == target.begin() || next == target.end()
+                          ? 0.0
+                          : (next->number - number) / (next->time - time);
+  return (sum + rest * (number + 0.5 * rate * rest)) / length;
+}
+
 /// A motor's target and its rate.
 struct Target {
   double number = 0.0;
@@ -82,7 +100,7 @@ double within_limits(const JointLaw& law, double velocity, double q, double span
 
 JointDrive torque_drive(const JointLaw& law, const PlanSpan& span) {
   const double bound = greatest_impulse(law, span.length);
-  const double torque = number_at(law.motor->target, span.from + 0.5 * span.length);
+  const double torque = mean_over(law.motor->target, span.from, span.length);
   const double impulse = std::clamp(torque * span.length, -bound, bound);
   return {.least = impulse, .greatest = impulse};
 }

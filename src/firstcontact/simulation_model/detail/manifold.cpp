@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <tuple>
 #include <unordered_map>
@@ -12,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/detail/spatial_hash.h>
-#include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
+#include <firstcontact/query/detail/facing_cell.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
@@ -194,13 +193,8 @@ class NearestOfMany {
   explicit NearestOfMany(double apart) : apart_(apart) {}
 
   void add(const Contact& contact, const FacingBodies& facing) {
-    const Vector3d& n = *contact.n_AB_W;
-    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
-    for (int k = 0; k < 3; ++k) {
-      key[static_cast<std::size_t>(k)] = cell_along(contact.p_WA[k], apart_);
-    }
-    const auto [found, is_new] = nearest_.try_emplace(key, nullptr);
-    const Contact*& nearest = found->second;
+    const FacingCell cell = facing_cell(contact.p_WA, *contact.n_AB_W, apart_);
+    const Contact*& nearest = nearest_.try_emplace(cell, nullptr).first->second;
     if ((nearest == nullptr || contact.distance < nearest->distance) &&
         facing.are_outermost(contact)) {
       nearest = &contact;
@@ -220,10 +214,8 @@ class NearestOfMany {
   }
 
  private:
-  /// Where, and the octant of the normal.
-  using Cell = std::array<std::int64_t, 4>;
   double apart_;
-  std::unordered_map<Cell, const Contact*, CellHash> nearest_;
+  std::unordered_map<FacingCell, const Contact*, CellHash> nearest_;
 };
 
 /// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an

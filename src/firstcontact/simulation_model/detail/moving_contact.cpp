@@ -203,6 +203,15 @@ double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>
   return 2.0 * time * turning * speed;
 }
 
+bool goes_over(const ManifoldPoint& touch, const std::array<ContactSide, 2>& sides,
+               std::size_t side) {
+  const auto is_flat = [&](std::size_t s) {
+    const Feature& feature = s == 0 ? touch.feature_A : touch.feature_B;
+    return touch.faces[s] || (feature.type == FeatureType::face && !sides[s].round.is_curved());
+  };
+  return is_flat(side) && !is_flat(1 - side);
+}
+
 MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& contact, double distance,
                            const std::array<ContactSide, 2>& sides, double time) {
   const Vector3d n = contact.frame.row(0).transpose();
@@ -232,6 +241,15 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
     }
   }
   const Vector3d between = apart + arms[1] - centres[1] - (arms[0] - centres[0]);
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (goes_over(touch, sides, s)) {
+      const Vector3d& arm = s == 0 ? contact.arm_A : contact.arm_B;
+      const ContactSide& other = sides[1 - s];
+      const Vector3d over =
+          other.v + other.w.cross(now[1 - s].centre) - sides[s].v - sides[s].w.cross(arm);  // [m/s]
+      arms[s] += by[s] * (time * across(over, n));
+    }
+  }
   return {arms, contact.frame * turn_of_frame.transpose(), n_there.dot(between)};
 }
 

@@ -66,6 +66,11 @@ struct MovedContact {
 [[nodiscard]] double most_change(const ContactPoint& contact,
                                  const std::array<ContactSide, 2>& sides, double time);
 
+/// Whether a contact goes over the face of a side, with what it meets there: as a ball rolls over
+/// points of a turntable.
+[[nodiscard]] bool goes_over(const ManifoldPoint& touch, const std::array<ContactSide, 2>& sides,
+                             std::size_t side);
+
 /// Moves a contact with the velocities of its bodies.
 ///
 /// A point of a body goes round with it. A round surface (a ball, a capsule, a cylinder, a rim, a

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -85,7 +86,7 @@ std::vector<double> Script::parts_of(const std::vector<ScriptedMotion>& motions,
   const std::vector<double> ends = straight_parts(motions, from, to, tolerance_);
   if (ends.empty()) {
     throw std::invalid_argument("the scripted bodies move too wildly in the step at " +
-                                std::to_string(time) +
+                                detail::shortest(time) +
                                 " s: they bend away from any of 10,000 straight pieces of it by "
                                 "more than half the contact distance; choose a smaller step");
   }

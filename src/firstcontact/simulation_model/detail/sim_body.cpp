@@ -1,8 +1,6 @@
 #include <firstcontact/simulation_model/detail/sim_body.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +12,7 @@
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/text/quantity.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -55,14 +54,6 @@ void find_reach(SimBody& body) {
   body.reach += body.shape.radius();
   const Vector3d thickness = Vector3d::Constant(body.shape.radius());
   body.box_B = Eigen::AlignedBox3d(body.box_B.min() - thickness, body.box_B.max() + thickness);
-}
-
-/// "0.00123 m"
-std::string metres(double number) {
-  std::array<char, 32> digits;
-  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number,
-                                     std::chars_format::general, 3);
-  return std::string(digits.data(), written.ptr) + " m";
 }
 
 /// Where there are links only, the smallest of them; null without free bodies.
@@ -165,11 +156,13 @@ std::vector<std::string> check_contact_distance(double contact_distance, const L
     const Vector3d p_WC = X_WB.position + X_WB.rotation * bodies[b].inertia.p_BC;
     extent = std::max(extent, p_WC.cwiseAbs().maxCoeff() + bodies[b].reach);
   }
-  const std::string given = "simulation.contact_distance: " + metres(contact_distance) + " is ";
+  const std::string given =
+      "simulation.contact_distance: " + detail::quantity(contact_distance, "m") + " is ";
   const double least = kLeastDistanceOfExtent * extent;
   if (contact_distance < least) {
     throw std::invalid_argument(given + "too small to be proven beside coordinates of " +
-                                metres(extent) + "; give at least " + metres(1.005 * least) +
+                                detail::quantity(extent, "m") + "; give at least " +
+                                detail::quantity(1.005 * least, "m") +
                                 ", or move the scene to the origin");
   }
   const SimBody* smallest = smallest_free_body(bodies);
@@ -179,8 +172,9 @@ std::vector<std::string> check_contact_distance(double contact_distance, const L
   const double radius = smallest->reach;
   const std::string of_body =
       '"' + linked.scene.bodies[static_cast<std::size_t>(smallest - bodies.data())].name +
-      "\", the smallest free body, has a radius of " + metres(radius);
-  const std::string mend = "; without this key it is " + metres(default_contact_distance(bodies));
+      "\", the smallest free body, has a radius of " + detail::quantity(radius, "m");
+  const std::string mend =
+      "; without this key it is " + detail::quantity(default_contact_distance(bodies), "m");
   if (contact_distance > radius) {
     throw std::invalid_argument(given + "larger than a body: " + of_body + mend);
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/robot/detail/mimicked_joint.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/body_motion.h>
@@ -139,7 +140,7 @@ class RobotMaker {
   static JointLimits limits_of(const Joint& joint, double q) {
     JointLimits limits = joint.limits;
     if (q < limits.lower.value_or(q) || q > limits.upper.value_or(q)) {
-      throw std::invalid_argument("joint \"" + joint.name + "\" starts at " + std::to_string(q) +
+      throw std::invalid_argument("joint \"" + joint.name + "\" starts at " + detail::shortest(q) +
                                   ", beyond its limits; give it another \"state\"");
     }
     if (limits.effort == 0.0) {

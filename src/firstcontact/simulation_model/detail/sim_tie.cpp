@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +14,7 @@
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>
+#include <firstcontact/text/quantity.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -32,14 +32,6 @@ Pose inverse_of(const Pose& X_AB) {
   return {-(R_BA * X_AB.position), R_BA};
 }
 
-/// "0.00123 m"
-std::string length_text(double number) {
-  std::array<char, 32> digits;
-  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number,
-                                     std::chars_format::general, 4);
-  return std::string(digits.data(), written.ptr) + " m";
-}
-
 /// simulation.ties[2] (a pin of "a" and the world)
 std::string tie_name(const SimTie& tie, std::size_t number,
                      const std::function<std::string(std::size_t)>& name_of) {
@@ -55,12 +47,13 @@ std::string tie_name(const SimTie& tie, std::size_t number,
 std::string wrong_place(const SimTie& tie, const TiePlace& place, double slack) {
   const double apart = place.between().norm();
   if (tie.is_joint() && apart > slack) {
-    return "its points are " + length_text(apart) +
+    return "its points are " + detail::quantity(apart, "m") +
            " apart; move the bodies or the points, or give null in place of one of the points";
   }
   if (tie.is_inextensible() && apart > tie.length + slack) {
-    return "its points are " + length_text(apart) + " apart, farther than its length of " +
-           length_text(tie.length) + "; move the bodies, or give a greater \"length\"";
+    return "its points are " + detail::quantity(apart, "m") +
+           " apart, farther than its length of " + detail::quantity(tie.length, "m") +
+           "; move the bodies, or give a greater \"length\"";
   }
   if (tie.type == TieType::cable && !(tie.length > 0.0)) {
     return "its points are the same at the start; give a \"length\"";

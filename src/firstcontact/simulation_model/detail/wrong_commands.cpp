@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/constants.h>
@@ -55,9 +56,9 @@ std::string beyond_limits(const SimRobot& robot, const Eigen::VectorXd& position
     if (q < law.limits.lower.value_or(q) - kMostBeyondLimit ||
         q > law.limits.upper.value_or(q) + kMostBeyondLimit) {
       const auto text = [](const std::optional<double>& limit) {
-        return limit ? std::to_string(*limit) : std::string("none");
+        return limit ? detail::shortest(*limit) : std::string("none");
       };
-      return "positions[" + std::to_string(law.position) + "] is " + std::to_string(q) +
+      return "positions[" + std::to_string(law.position) + "] is " + detail::shortest(q) +
              ", beyond the limits of its joint: lower " + text(law.limits.lower) + ", upper " +
              text(law.limits.upper);
     }

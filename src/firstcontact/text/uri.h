@@ -1,5 +1,5 @@
 /// @file
-/// The URIs by which glTF documents name their buffers.
+/// URIs, as robots and models name files and data by them.
 
 #pragma once
 

@@ -1,4 +1,4 @@
-#include <firstcontact/model_files/detail/gltf_uri.h>
+#include <firstcontact/text/uri.h>
 
 #include <algorithm>
 #include <charconv>
@@ -6,18 +6,13 @@
 #include <cstdint>
 #include <system_error>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/base64.h>
 
 namespace firstcontact::detail {
 namespace {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-bool equal_in_any_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 constexpr std::string_view kData = "data:";
 constexpr std::string_view kBase64 = ";base64";
@@ -56,9 +51,7 @@ bool has_scheme(std::string_view uri) {
   });
 }
 
-bool is_data_uri(std::string_view uri) {
-  return equal_in_any_case(uri.substr(0, kData.size()), kData);
-}
+bool is_data_uri(std::string_view uri) { return lower(uri.substr(0, kData.size())) == kData; }
 
 std::optional<std::string> decode_data_uri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
@@ -68,7 +61,7 @@ std::optional<std::string> decode_data_uri(std::string_view uri) {
   const std::string_view head = uri.substr(0, comma);
   const std::string_view data = uri.substr(comma + 1);
   const bool base64 = head.size() >= kData.size() - 1 + kBase64.size() &&
-                      equal_in_any_case(head.substr(head.size() - kBase64.size()), kBase64);
+                      lower(head.substr(head.size() - kBase64.size())) == kBase64;
   if (!base64) {
     return decode_percent(data);
   }

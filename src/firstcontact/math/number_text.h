@@ -1,0 +1,26 @@
+/// @file
+/// Numbers as text, whatever the locale: for files, errors and warnings.
+
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+
+namespace firstcontact::detail {
+
+/// As few digits as give the number back: "0.25", "-1e-07", "nan".
+inline std::string shortest(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+/// At most so many digits, as many as a person reads: "0.00123".
+inline std::string rounded(double number, int digits) {
+  std::array<char, 32> text{};
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), number,
+                                     std::chars_format::general, digits);
+  return {text.data(), written.ptr};
+}
+
+}  // namespace firstcontact::detail
