@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
@@ -325,6 +326,22 @@ goal_constraints:
   EXPECT_EQ(goal.X_WT.rotation.z(), 1.0);
   EXPECT_EQ(goal.position_tolerance, 0.005);  // The ball in the box.
   EXPECT_EQ(goal.rotation_tolerance, 0.05);
+}
+
+// Half of a tolerance of two pi is any rotation.
+TEST(PlanningRequest, MayTurnALinkAsItLikes) {
+  const std::string wide = "6.2832";
+  const PlanningRequest request = parse_planning_request(
+      "goal_constraints: [{position_constraints: [{link_name: hook, constraint_region: "
+      "{primitives: "
+      "[{type: 2, dimensions: [0.01]}], primitive_poses: [{position: {x: 1, y: 2, z: 3}, "
+      "orientation: {x: 0, y: 0, z: 0, w: 1}}]}}], "
+      "orientation_constraints: [{link_name: hook, orientation: {x: 0, y: 0, z: 0, w: 1}, "
+      "absolute_x_axis_tolerance: " +
+          wide + ", absolute_y_axis_tolerance: " + wide + ", absolute_z_axis_tolerance: " + wide +
+          "}]}]",
+      "r.yaml", crane());
+  EXPECT_GE(request.link_goal.value().rotation_tolerance, std::numbers::pi);
 }
 
 TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {

@@ -1,5 +1,6 @@
 #include <firstcontact/mesh_files/read_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <clocale>
@@ -122,6 +123,33 @@ TEST(Readers, DoNotHeedTheLocale) {
   EXPECT_THROW((void)parse_obj("v 0,5 0 0\nf 1 1 1\n", "obj"), std::runtime_error);
   std::setlocale(LC_ALL, "C");
   std::locale::global(before);
+}
+
+// Any blank may stand between two words of STL, also one for a line break.
+TEST(ReadStl, DoesNotNeedLines) {
+  const Mesh mesh = square();
+  std::string stl = test::to_ascii_stl(mesh);
+  stl.replace(0, stl.find('\n'), "solid my facet");
+  for (const char blank : {' ', '\t', '\r', '\f'}) {
+    std::string one_line = stl;
+    std::ranges::replace(one_line, '\n', blank);
+    expect_same_soup(parse_stl(one_line, "stl"), mesh);
+  }
+  std::string words =
+      stl.substr(stl.find('\n'), stl.find("endsolid") - stl.find('\n')) + "endsolid";
+  std::ranges::replace(words, ' ', '\n');
+  expect_same_soup(parse_stl("solid\n" + words, "stl"), mesh);
+}
+
+TEST(Readers, TakeCarriageReturnsForLineEnds) {
+  const Mesh mesh = square();
+  const auto old = [](std::string text) {
+    std::ranges::replace(text, '\n', '\r');
+    return text;
+  };
+  expect_identical(parse_obj(old(test::to_obj(mesh)), "obj"), mesh);
+  expect_identical(parse_off(old(test::to_off(mesh)), "off"), mesh);
+  expect_identical(parse_ply(old(test::to_ascii_ply(mesh)), "ply"), mesh);
 }
 
 TEST(ReadObj, AcceptsEveryFormOfACorner) {

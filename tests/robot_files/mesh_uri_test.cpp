@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,34 @@ TEST_F(MeshUri, IsInThePackageThatHoldsTheUrdf) {
   // A folder beside the package that encloses the file is next.
   make("ws/meshes/b.obj");
   EXPECT_EQ(resolved("package://meshes/b.obj", "ws/pkg/urdf/r.urdf"), "ws/meshes/b.obj");
+}
+
+TEST_F(MeshUri, IsInAPackageBesideTheUrdf) {
+  make("robots/pkg/a.obj");
+  EXPECT_EQ(resolved("package://pkg/a.obj", "robots/r.urdf"), "robots/pkg/a.obj");
+}
+
+// ".." is no folder: those above the file are searched, not those above the place it is named from.
+TEST_F(MeshUri, IsFoundFromAPathThatGoesUp) {
+  make("pkg/a.obj");
+  make("robots/sub/pkg/a.obj");
+  EXPECT_EQ(resolved("package://pkg/a.obj", "robots/sub/../r.urdf"), "pkg/a.obj");
+}
+
+TEST_F(MeshUri, TakesEveryFormOfAFileUri) {
+  make("robots/a b.obj");
+  make("robots/a%20c.obj");
+  EXPECT_EQ(resolved("file://a%20b.obj", "robots/r.urdf"), "robots/a b.obj");
+  EXPECT_EQ(resolved("file://a%20c.obj", "robots/r.urdf"), "robots/a%20c.obj");
+  for (const char* start : {"file:", "file://", "file://localhost"}) {
+    EXPECT_EQ(resolve_mesh(std::string(start) + "/x/a%20b.obj", folder_ / "r.urdf", {}),
+              path("/x/a b.obj"))
+        << start;
+  }
+}
+
+TEST_F(MeshUri, RefusesWhatXacroReplaces) {
+  EXPECT_THROW((void)resolved("$(find pkg)/a.obj", "r.urdf"), std::invalid_argument);
 }
 
 }  // namespace

@@ -80,13 +80,30 @@ TEST(ReadSrdf, CollectsGroups) {
   EXPECT_EQ(semantics.groups[2].joints, (Indices{1}));
 }
 
+// From the end of one arm to that of another, up and down, as in MoveIt.
+TEST(ReadSrdf, TakesChainsAcrossThePlaceWhereTheyFork) {
+  const RobotSemantics semantics = parse(
+      "<group name='both'><chain base_link='b' tip_link='c'/></group>"
+      "<group name='up'><chain base_link='b' tip_link='a'/></group>");
+  ASSERT_EQ(semantics.groups.size(), 2u);
+  EXPECT_EQ(semantics.groups[0].links, (Indices{0, 1, 2, 3}));
+  EXPECT_EQ(semantics.groups[0].joints, (Indices{0, 1, 2}));
+  EXPECT_EQ(semantics.groups[1].links, (Indices{1, 2}));
+}
+
 TEST(ReadSrdf, NamesFileElementAndMend) {
   EXPECT_EQ(srdf_error("<group name='g'><group name='g'/></group>"),
             "f.srdf:2: <group name='g'>: the group contains itself");
   EXPECT_EQ(srdf_error("<group name='g'/><group name='g'/>"),
             "f.srdf:2: <group name='g'>: a second group of this name; rename one of them");
-  EXPECT_EQ(srdf_error("<group name='g'><chain base_link='b' tip_link='a'/></group>"),
-            "f.srdf:2: <chain>: the tip link does not hang on the base link");
+  EXPECT_EQ(srdf_error("<group_state name='s' group='g'><joint name='ja' value='1'/>"
+                       "<joint name='ja' value='1'/>\n<joint name='ja' value='2'/></group_state>"),
+            "f.srdf:3: <joint name='ja'>: the state has another position of this joint; remove one "
+            "of the two");
+  EXPECT_EQ(srdf_error("<group_state name='s' group='g'/><group_state name='s' group='h'/>\n"
+                       "<group_state name='s' group='g'/>"),
+            "f.srdf:3: <group_state name='s'>: a second state of this name in group 'g'; rename "
+            "one of them");
   EXPECT_EQ(srdf_error("<disable_collisions link1='a' link2='a'/>"),
             "f.srdf:2: <disable_collisions>: expected two different links, got 'a' twice");
   EXPECT_EQ(srdf_error("<group name='g'/><group_state name='s' group='g'>\n"

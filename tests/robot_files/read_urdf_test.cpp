@@ -127,7 +127,9 @@ TEST(ReadUrdf, MakesPrimitives) {
 TEST(ReadUrdf, NamesFileElementAndMend) {
   EXPECT_EQ(urdf_error("<robot name='r'>\n<link name='a'>\n</robot>"),
             "r.urdf:2: expected XML, got XML_ERROR_MISMATCHED_ELEMENT");
-  EXPECT_EQ(urdf_error("<sdf/>"), "r.urdf:1: <sdf>: expected <robot> as the outermost element");
+  EXPECT_EQ(urdf_error("<sdf/>"),
+            "r.urdf:1: <sdf>: expected <robot> as the outermost element, got SDF, which is not "
+            "read; convert it to URDF");
   EXPECT_EQ(urdf_error("<robot/>"),
             "r.urdf:1: <robot>: expected an attribute 'name' that is not empty; line 1: <robot>: "
             "the robot has no link");

@@ -428,6 +428,27 @@ TEST(UrdfOddities, LooksThatAreNotFoundMatterOnlyWhereTheyTouch) {
 }
 
 /// Hostile files end in a line.
+TEST(UrdfOddities, ReadsNamesByTheEncodingThatTheFileStates) {
+  const std::string robot = "<robot name='r'><link name='bras_d\xe9'/></robot>";
+  const auto name_of = [](const std::string& text) {
+    return parse_robot(text, "odd.urdf").model.links()[0].name;
+  };
+  EXPECT_EQ(name_of("<?xml version='1.0' encoding='ISO-8859-1'?>\n" + robot), "bras_d\xc3\xa9");
+  EXPECT_EQ(name_of("<?xml version=\"1.0\" encoding=\"latin1\"?>" + robot), "bras_d\xc3\xa9");
+  EXPECT_EQ(name_of("<robot name='r'><!-- 90\xb0 --><link name='d\xc3\xa9'/></robot>"),
+            "d\xc3\xa9");
+  EXPECT_EQ(error_of("<?xml version='1.0' encoding='windows-1252'?>\n\n" + robot),
+            "odd.urdf:3: expected UTF-8, got other bytes; save the file as UTF-8, or state its "
+            "encoding: <?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>");
+  EXPECT_EQ(error_of(robot).substr(0, 33), "odd.urdf:1: expected UTF-8, got o");
+}
+
+TEST(UrdfOddities, NamesFormatsThatAreNone) {
+  EXPECT_EQ(error_of("<mujoco model='m'/>"),
+            "odd.urdf:1: <mujoco>: expected <robot> as the outermost element, got MJCF, which is "
+            "not read; convert it to URDF");
+}
+
 TEST(UrdfOddities, SurvivesDepthAndBombs) {
   std::string deep = "<robot name='r'>";
   for (int k = 0; k < 100'000; ++k) {

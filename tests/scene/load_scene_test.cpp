@@ -84,7 +84,7 @@ TEST_F(LoadedScenes, HoldBodiesByTheSecondsOfTheScene) {
 
 TEST_F(LoadedScenes, WarnOfJointsThatNothingPlaces) {
   EXPECT_EQ(test::lines_of(load(kBallAndBox, R"("padding": 0)").warnings),
-            "arm: nothing says where elbow is; it rests at 0, or at the limit next to it\n");
+            "arm: no position is given for elbow: it rests at 0, or at the limit next to it\n");
   EXPECT_EQ(test::lines_of(load(kBallAndBox, R"("state": {"elbow": 1})").warnings), "");
 }
 

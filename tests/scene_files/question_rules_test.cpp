@@ -271,6 +271,11 @@ TEST_F(QuestionRules, RefusesSurroundingsThatWouldChangeTheirSpeed) {
   EXPECT_EQ(room("3"), at("room.json") +
                            ": expected options.duration 4, as the trajectory takes, since bodies "
                            "move over all of it; got 3");
+  EXPECT_EQ(room("4.0000000001"), "accepted");  // Of rounding.
+  folder_.write("room.json", test::scene(test::body("a", test::falling("1", "-1"))));
+  RobotQuestion moving = among({"room.json"});
+  moving.trajectory = folder_.path() / "move.csv";
+  EXPECT_EQ(read_robot_question(moving).duration, 4.0);
   folder_.write("rest.json", test::scene(test::body("a"), R"("options": {"duration": 3})"));
   RobotQuestion asked = among({"rest.json"});
   asked.trajectory = folder_.path() / "move.csv";

@@ -212,9 +212,22 @@ TEST_F(RobotQuestions, RestWhereThePlanningSceneSaysIfNothingElseDoes) {
   EXPECT_EQ(read_robot_question(asked).robots[0].state, (JointPositions{{"turn", 1.0}}));
   EXPECT_EQ(warnings(asked, "gone").size(), 1u);
   EXPECT_EQ(warnings(asked, "finger").size(), 1u);
-  EXPECT_TRUE(warnings(asked, "nothing says where").empty());
+  EXPECT_TRUE(warnings(asked, "no position is given").empty());
   asked.state = {"turn=0.5"};
   EXPECT_EQ(read_robot_question(asked).robots[0].state, (JointPositions{{"turn", 0.5}}));
+}
+
+// MoveIt's `is_diff`: what a request leaves out is where the robot is.
+TEST_F(RobotQuestions, BeginWhereThePlanningSceneHasTheRobot) {
+  write("around.yaml", "robot_state:\n  joint_state: {name: [turn], position: [1.0]}\nworld: {}\n");
+  write("request.yaml",
+        "start_state: {is_diff: true}\ngoal_constraints:\n"
+        "- joint_constraints: [{joint_name: turn, position: 0.5}]\n");
+  RobotQuestion asked = question("around.yaml");
+  asked.request = folder_ / "request.yaml";
+  const Scene scene = read_robot_question(asked);
+  EXPECT_EQ(scene.robots[0].trajectory.points.front().positions, std::vector<double>{1.0});
+  EXPECT_EQ(scene.robots[0].trajectory.points.back().positions, std::vector<double>{0.5});
 }
 
 TEST_F(RobotQuestions, TakeQuaternionsOfZerosAsTheIdentity) {

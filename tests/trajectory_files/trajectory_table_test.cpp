@@ -175,6 +175,16 @@ TEST(TrajectoryTable, LeavesOutFixedJointsThatRest) {
           "t.csv: a position is given for a fixed joint, weld; it is where the URDF has it"}));
 }
 
+TEST(Table, TakesUnitsOfVelocitiesAndAccelerations) {
+  const Trajectory trajectory = parse_table(
+      "time [seconds],turn [rad],turn.velocity [rad/s],turn.acceleration [rad/s^2]\n"
+      "0,0,1,2\n1,3,4,5\n");
+  EXPECT_EQ(trajectory.joint_names, std::vector<std::string>{"turn"});
+  EXPECT_EQ(trajectory.points[1].positions, std::vector<double>{3.0});
+  EXPECT_EQ(trajectory.points[1].velocities, std::vector<double>{4.0});
+  EXPECT_EQ(trajectory.points[1].accelerations, std::vector<double>{5.0});
+}
+
 TEST(MalformedTable, SaysTheMend) {
   const std::vector<std::array<std::string, 2>> cases = {
       {"turn;lift\n0;1\n",
@@ -195,6 +205,12 @@ TEST(MalformedTable, SaysTheMend) {
       {"time [ms],turn\n0,0\n",
        "t.csv:1: column \"time [ms]\": expected seconds, got the unit \"ms\"; convert the numbers, "
        "and the name"},
+      {"time,turn,turn.velocity [deg/s]\n0,0,0\n",
+       "t.csv:1: column \"turn.velocity [deg/s]\": expected velocities in rad/s, as the joint "
+       "turns; got the unit \"deg/s\"; convert the numbers, and the name"},
+      {"time,lift,lift.acceleration [m/s]\n0,0,0\n",
+       "t.csv:1: column \"lift.acceleration [m/s]\": expected accelerations in m/s^2, as it "
+       "slides; got the unit \"m/s\"; convert the numbers, and the name"},
       {"time,turn [deg]\n0,0\n",
        "t.csv:1: column \"turn [deg]\": expected positions in rad, as the joint turns; got the "
        "unit \"deg\"; convert the numbers, and the name"},

@@ -12,6 +12,7 @@
 
 #include <firstcontact/haptic_devices/detail/quiet_state.h>
 #include <firstcontact/haptic_devices/detail/recording_head.h>
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>

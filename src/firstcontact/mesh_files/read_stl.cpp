@@ -6,6 +6,7 @@
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/polygons/detail/mesh_builder.h>
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/byte_cursor.h>
 #include <firstcontact/text/text_cursor.h>
 
@@ -19,14 +20,7 @@ using detail::TextCursor;
 
 constexpr std::size_t kHeader = 80;
 constexpr std::size_t kFacet = 50;
-
-std::string lower(std::string_view word) {
-  std::string result(word.substr(0, 16));
-  for (char& c : result) {
-    c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  }
-  return result;
-}
+constexpr std::size_t kMoreThanKeyword = 16;  // Longer words are none.
 
 bool size_fits_count(std::string_view data) {
   if (data.size() < kHeader + 4) {
@@ -40,7 +34,7 @@ bool size_fits_count(std::string_view data) {
 bool looks_like_text(std::string_view data) {
   data = detail::without_byte_order_mark(data);
   const std::size_t start = data.find_first_not_of(" \t\r\n\v\f");
-  return start != data.npos && lower(data.substr(start, 5)) == "solid" &&
+  return start != data.npos && detail::lower(data.substr(start, 5)) == "solid" &&
          data.substr(0, 1024).find('\0') == data.npos;
 }
 
@@ -113,26 +107,57 @@ Mesh parse_binary(std::string_view data, ReadingLog& log) {
   return mesh.finish(log);
 }
 
-void expect(TextCursor& text, std::string_view keyword) {
-  const bool found = text.find_line();
+/// The next word, in lower case, whatever line it is on; empty at the end of the file.
+std::string keyword(TextCursor& text) {
+  return text.find_line() ? detail::lower(text.word().substr(0, kMoreThanKeyword)) : std::string();
+}
+
+void expect(TextCursor& text, std::string_view wanted) {
+  (void)text.find_line();
   TextCursor before = text;
-  if (!found || lower(text.word()) != keyword) {
-    before.fail_at_word("'" + std::string(keyword) + "'");
+  if (keyword(text) != wanted) {
+    before.fail_at_word("'" + std::string(wanted) + "'");
   }
+}
+
+/// The name of a solid goes to the end of the line, or to its first facet there.
+void skip_name(TextCursor& text) {
+  while (!text.at_line_end()) {
+    TextCursor ahead = text;
+    if (keyword(ahead) == "facet" && !ahead.at_line_end() && keyword(ahead) == "normal") {
+      return;
+    }
+    (void)text.word();
+  }
+}
+
+/// A normal is often no number, and is left out: the words of its line, or three on several lines.
+void skip_normal(TextCursor& text) {
+  for (int words = 0; (words < 3 || !text.at_line_end()) && text.find_line(); ++words) {
+    TextCursor ahead = text;
+    if (keyword(ahead) == "outer") {
+      return;
+    }
+    (void)text.word();
+  }
+}
+
+double coordinate(TextCursor& text) {
+  (void)text.find_line();
+  return text.number("a finite coordinate");
 }
 
 void read_facet(TextCursor& text, MeshBuilder& mesh) {
   expect(text, "normal");
-  text.skip_line();  // Left out: it is often not a number.
+  skip_normal(text);
   expect(text, "outer");
   expect(text, "loop");
   mesh.begin_polygon(text.line());
   for (int k = 0; k < 3; ++k) {
     expect(text, "vertex");
-    const double x = text.number("a finite coordinate");
-    const double y = text.number("a finite coordinate");
-    const double z = text.number("a finite coordinate");
-    text.expect_line_end();
+    const double x = coordinate(text);
+    const double y = coordinate(text);
+    const double z = coordinate(text);
     if (!mesh.add_vertex({x, y, z}) ||
         !mesh.add_corner(static_cast<std::int64_t>(mesh.vertex_count()) - 1)) {
       text.fail("expected fewer than 2^32 vertices");
@@ -149,15 +174,15 @@ std::size_t read_facets(TextCursor& text, MeshBuilder& mesh, ReadingLog& log) {
   for (std::size_t solids = 1;;) {
     const bool more = text.find_line();
     TextCursor before = text;
-    const std::string keyword = more ? lower(text.word()) : std::string();
-    if (keyword == "endsolid") {
+    const std::string word = keyword(text);
+    if (word == "endsolid") {
       text.skip_line();
       return solids;
     }
-    if (keyword == "solid") {
+    if (word == "solid") {
       log.warn(ParseError(log.path(), text.line(), "'endsolid' is missing before this solid"),
                "missing endsolid");
-      text.skip_line();
+      skip_name(text);
       ++solids;
       continue;
     }
@@ -166,7 +191,7 @@ std::size_t read_facets(TextCursor& text, MeshBuilder& mesh, ReadingLog& log) {
                             "expected 'facet' or 'endsolid', got the end of the file"));
       return solids;
     }
-    if (keyword != "facet") {
+    if (word != "facet") {
       before.fail_at_word("'facet' or 'endsolid'");
     }
     read_facet(text, mesh);
@@ -179,7 +204,7 @@ Mesh parse_ascii(std::string_view data, ReadingLog& log) {
   std::size_t solids = 0;
   while (text.find_line()) {
     expect(text, "solid");
-    text.skip_line();  // The name.
+    skip_name(text);
     solids += read_facets(text, mesh, log);
   }
   if (mesh.is_empty()) {

@@ -9,6 +9,7 @@
 
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
@@ -20,12 +21,6 @@ using detail::TextCursor;
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
 bool is_blank(char c) { return kBlanks.find(c) != kBlanks.npos; }
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  return first == text.npos ? std::string_view()
-                            : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// A line without its comment, and its number.
 struct Line {
@@ -66,11 +61,11 @@ class Fields {
     }
     const std::size_t end =
         separator_ == ' ' ? rest_.find_first_of(kBlanks) : rest_.find(separator_);
-    const std::string_view field = trimmed(rest_.substr(0, end));
+    const std::string_view field = detail::trimmed(rest_.substr(0, end));
     is_at_end_ = end == rest_.npos;
     rest_ = is_at_end_ ? std::string_view() : rest_.substr(end + 1);
     if (separator_ == ' ') {
-      rest_ = trimmed(rest_);
+      rest_ = detail::trimmed(rest_);
       is_at_end_ = is_at_end_ || rest_.empty();
     }
     return field;
@@ -82,13 +77,6 @@ class Fields {
   bool is_at_end_ = false;
 };
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 class XyzReader {
  public:
   explicit XyzReader(ReadingLog& log) : log_(log) {}
@@ -98,7 +86,7 @@ class XyzReader {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       const std::string_view line = text.substr(0, end);
-      const std::string_view content = trimmed(line.substr(0, line.find('#')));
+      const std::string_view content = detail::trimmed(line.substr(0, line.find('#')));
       if (!content.empty()) {
         read_line({content, number});
       }
@@ -131,7 +119,7 @@ class XyzReader {
 
   /// The first column is neither a number nor "nan" or "inf", which are refused as coordinates.
   static bool starts_with_word(std::string_view line) {
-    const std::string first = lower(*Fields(line).next());
+    const std::string first = detail::lower(*Fields(line).next());
     const bool is_number = first == "nan" || first == "inf" || first == "infinity";
     return !first.empty() && !is_number &&
            (std::isalpha(static_cast<unsigned char>(first[0])) != 0 || first[0] == '"');
@@ -149,9 +137,9 @@ class XyzReader {
   /// Names of columns have to begin with x, y and z; a comment may have no names.
   void check_names(const Line& line, std::string_view text, bool is_comment) const {
     std::vector<std::string> names;
-    Fields fields(trimmed(text));
+    Fields fields(detail::trimmed(text));
     while (const auto field = fields.next()) {
-      std::string name = lower(*field);
+      std::string name = detail::lower(*field);
       std::erase(name, '"');
       names.push_back(std::move(name));
     }

@@ -281,12 +281,12 @@ class SrdfReader {
     if (!base || !tip) {
       return;
     }
-    if (robot_.last_common_ancestor(*base, *tip) != *base) {
-      xml_.fail(element, "the tip link does not hang on the base link");
-    }
-    add_link(members, *base);
-    for (const std::size_t joint : robot_.chain(*base, *tip)) {
-      add_link(members, robot_.child_link(joint));
+    const std::size_t top = robot_.last_common_ancestor(*base, *tip);  // Of two arms their torso.
+    add_link(members, top);
+    for (const std::size_t end : {*base, *tip}) {
+      for (const std::size_t joint : robot_.chain(top, end)) {
+        add_link(members, robot_.child_link(joint));
+      }
     }
   }
 
@@ -294,6 +294,10 @@ class SrdfReader {
     GroupState state{
         .name = xml_.text(element, "name"), .group = xml_.text(element, "group"), .values = {}};
     has_group(element, state.group);
+    if (!names_of_states_.emplace(state.group, state.name).second) {
+      xml_.fail(element,
+                "a second state of this name in group '" + state.group + "'; rename one of them");
+    }
     for (const XmlElement* value : xml_.children(element, "joint")) {
       names_.check(*value, srdf_names().value);
       attempt([&] { read_value(*value, state); });
@@ -318,7 +322,12 @@ class SrdfReader {
       xml_.fail(element, "expected as many numbers in 'value' as the joint has coordinates, " +
                              std::to_string(count) + ", got " + std::to_string(coordinates.size()));
     }
-    state.values.push_back({*found, coordinates});
+    const auto given = std::ranges::find(state.values, *found, &GroupState::JointValue::joint);
+    if (given == state.values.end()) {
+      state.values.push_back({*found, coordinates});
+    } else if (given->coordinates != coordinates) {
+      xml_.fail(element, "the state has another position of this joint; remove one of the two");
+    }
   }
 
   void read_end_effector(const XmlElement& element) {
@@ -343,7 +352,8 @@ class SrdfReader {
   std::map<std::string, const XmlElement*, std::less<>> group_elements_;
   std::vector<const XmlElement*> groups_;  // In the order of the file.
   std::map<const XmlElement*, Members> members_;
-  std::set<const XmlElement*> broken_;  // Groups whose errors are told.
+  std::set<const XmlElement*> broken_;                             // Groups whose errors are told.
+  std::set<std::pair<std::string, std::string>> names_of_states_;  // By group.
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/robot_check/robot_gap.h>
 #include <firstcontact/robot_check/robot_scene.h>
@@ -88,7 +89,7 @@ std::vector<GapSample> sample_gap(const LoadedScene& loaded, std::span<const dou
   samples.reserve(times.size());
   for (const double t : times) {
     if (!(t >= 0.0 && t <= 1.0)) {
-      throw std::invalid_argument("sample_gap: t must be in [0, 1], got " + std::to_string(t));
+      throw std::invalid_argument("sample_gap: t must be in [0, 1], got " + detail::shortest(t));
     }
     if (stop.stop_requested()) {
       break;

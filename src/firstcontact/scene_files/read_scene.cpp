@@ -24,10 +24,10 @@
 #include <firstcontact/scene_files/detail/read_robots.h>
 #include <firstcontact/scene_files/detail/read_shape.h>
 #include <firstcontact/scene_files/detail/read_simulation.h>
+#include <firstcontact/scene_files/detail/scene_text.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
-#include <firstcontact/text/read_file.h>
 #include <firstcontact/text/read_path.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
@@ -385,7 +385,7 @@ Scene parse_embedded_scene(std::string_view text, const std::string& name, std::
 }
 
 Scene read_scene(const std::filesystem::path& path, const ReadingOptions& options) {
-  return parse_scene(detail::read_file(path, "a scene file"), path, 1, options);
+  return parse_scene(detail::scene_text(path), path, 1, options);
 }
 
 }  // namespace firstcontact

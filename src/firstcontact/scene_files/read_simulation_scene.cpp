@@ -2,14 +2,14 @@
 
 #include <firstcontact/foreign_scenes/detail/rigid_ipc_keys.h>
 #include <firstcontact/foreign_scenes/read_rigid_ipc.h>
+#include <firstcontact/scene_files/detail/scene_text.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_json.h>
-#include <firstcontact/text/read_file.h>
 
 namespace firstcontact {
 
 Scene read_simulation_scene(const std::filesystem::path& path, const ReadingOptions& options) {
-  return parse_simulation_scene(detail::read_file(path, "a scene file"), path, options);
+  return parse_simulation_scene(detail::scene_text(path), path, options);
 }
 
 Scene parse_simulation_scene(std::string_view text, const std::filesystem::path& source,

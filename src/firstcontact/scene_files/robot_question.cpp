@@ -1,6 +1,7 @@
 #include <firstcontact/scene_files/robot_question.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/scene_files/detail/text_reports.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
@@ -46,6 +48,9 @@ class SceneBuilder {
     take_motion(robot);
     for (const std::filesystem::path& file : question_.environment) {
       add_environment(file, robot);
+    }
+    if (goal_) {  // From where the environment has what nobody else has moved.
+      robot.trajectory = straight_motion(robot.model, robot.state, *goal_, turning());
     }
     if (question_.padding > 0.0) {
       for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
@@ -105,6 +110,7 @@ class SceneBuilder {
     robot.state = moving(question_.state, "state", robot);
     put(moving(question_.start, "start", robot), robot.state);
     scene_.id = robot.name;
+    robot.trajectory.points = {TrajectoryPoint{}};
     if (!question_.trajectory.empty()) {
       robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
                                           question_.trajectory, robot.model);
@@ -121,10 +127,7 @@ class SceneBuilder {
       if (question_.start.empty()) {
         refuse("expected a start beside the goal, got none");
       }
-      robot.trajectory = straight_motion(robot.model, robot.state,
-                                         moving(question_.goal, "goal", robot), turning());
-    } else {
-      robot.trajectory.points = {TrajectoryPoint{}};
+      goal_ = moving(question_.goal, "goal", robot);
     }
   }
 
@@ -134,9 +137,8 @@ class SceneBuilder {
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
     if (!request.link_goal) {
-      robot.trajectory = straight_motion(robot.model, robot.state, request.goal, turning());
+      goal_ = request.goal;
     } else if (question_.plans) {
-      robot.trajectory.points = {TrajectoryPoint{}};
       scene_.plan = PlanQuestion{.robots = {0}, .link_goals = {*request.link_goal}};
     } else {
       throw ParseError(question_.request.string(),
@@ -163,14 +165,19 @@ class SceneBuilder {
   }
 
   void add_environment(const std::filesystem::path& file, SceneRobot& robot) {
-    const std::string extension = detail::lower_extension(file);
+    const std::string extension = detail::file_extension(file);
     if (!detail::is_tree_extension(extension)) {
       add_mesh(file);
       return;
     }
     const std::string text = text_of(file, "surroundings");
-    if (extension == ".json" && is_scene(text, file)) {
+    const detail::JsonValue tree =
+        extension == "json" ? detail::parse_json(text, file.string()) : detail::JsonValue();
+    if (has_key(tree, "firstcontact")) {
       add_scene(parse_scene(text, file, 1, question_.reading), file);
+      const detail::JsonValue* options =
+          detail::find(std::get<detail::JsonObject>(tree.value), "options");
+      states_duration_ = options != nullptr && has_key(*options, "duration");
     } else {
       require_base_at_origin(robot, file);
       const std::string& root = robot.model.links()[robot.model.root()].name;
@@ -197,10 +204,9 @@ class SceneBuilder {
     }
   }
 
-  static bool is_scene(const std::string& text, const std::filesystem::path& file) {
-    const detail::JsonValue root = detail::parse_json(text, file.string());
-    const auto* object = std::get_if<detail::JsonObject>(&root.value);
-    return object != nullptr && detail::find(*object, "firstcontact") != nullptr;
+  static bool has_key(const detail::JsonValue& value, const char* key) {
+    const auto* object = std::get_if<detail::JsonObject>(&value.value);
+    return object != nullptr && detail::find(*object, key) != nullptr;
   }
 
   void add_mesh(const std::filesystem::path& file) {
@@ -358,11 +364,14 @@ class SceneBuilder {
   }
 
   void set_duration() {
+    constexpr double kSameDuration = 1e-9;  // [-]  Beyond the rounding of the fastest motion.
     const double last = last_time(scene_);
     scene_.duration = last > 0.0 ? last : around_duration_.value_or(1.0);
     const auto spans = [](const Body& body) { return spans_duration(body.motion); };
-    if (around_duration_ && *around_duration_ != scene_.duration &&
-        std::any_of(scene_.bodies.begin(), scene_.bodies.end(), spans)) {
+    const bool differs =
+        states_duration_ && std::abs(around_duration_.value_or(scene_.duration) - scene_.duration) >
+                                kSameDuration * scene_.duration;
+    if (differs && std::any_of(scene_.bodies.begin(), scene_.bodies.end(), spans)) {
       throw ParseError(around_.string(),
                        "expected options.duration " + detail::write_json(scene_.duration) +
                            ", as the trajectory takes, since bodies move over all of it; got " +
@@ -377,7 +386,9 @@ class SceneBuilder {
   std::vector<AllowedCollisions> allowed_;
   std::map<std::size_t, std::string> ids_;  // Of bodies that are parts of planning scenes.
   std::filesystem::path around_;
+  std::optional<JointPositions> goal_;  // Of a straight motion.
   std::optional<double> around_duration_;
+  bool states_duration_ = false;  // Else what moves there does so over whatever duration.
 };
 
 }  // namespace

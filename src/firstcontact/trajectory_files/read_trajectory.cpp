@@ -3,6 +3,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>
@@ -16,8 +17,8 @@ Trajectory parse_trajectory(std::string_view text, const std::filesystem::path& 
                             const RobotModel& robot) {
   const FloatEnvironmentGuard guard;
   const std::string name = source.string();
-  const std::string extension = detail::lower_extension(source);
-  if (extension == ".csv") {
+  const std::string extension = detail::file_extension(source);
+  if (extension == "csv") {
     return detail::read_trajectory_table(text, name, robot);
   }
   if (!detail::is_tree_extension(extension)) {

@@ -115,7 +115,7 @@ void take_orientation(const JsonValue& constraint, const RobotModel& robot, cons
   }
   goal.X_WT.rotation =
       (frame_of(constraint, robot, X_WR, read).rotation * turned.pose.rotation).normalized();
-  double least = kAnyTurn;
+  double least = 2.0 * kAnyTurn;  // Half of it is taken.
   for (const char* key :
        {"absolute_x_axis_tolerance", "absolute_y_axis_tolerance", "absolute_z_axis_tolerance"}) {
     const JsonValue* tolerance = find_filled(constraint, key);

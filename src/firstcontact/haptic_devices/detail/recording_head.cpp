@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_double.h>
@@ -203,15 +204,6 @@ std::string written_name(const std::string& name) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
 
 double number_or_nan(std::string_view text, bool infinite) {
   double number = 0.0;

@@ -27,7 +27,4 @@ void read_recording_key(std::string_view line, const std::string& source, std::s
 /// A finite number, or an infinite one if `infinite` allows it; NaN where the text is neither.
 [[nodiscard]] double number_or_nan(std::string_view text, bool infinite = false);
 
-/// Without blanks at both ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
 }  // namespace firstcontact::detail

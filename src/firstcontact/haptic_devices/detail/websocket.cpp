@@ -5,6 +5,7 @@
 
 #include <firstcontact/haptic_devices/detail/recording_head.h>
 #include <firstcontact/haptic_devices/detail/sha1.h>
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/base64.h>
 #include <firstcontact/text/text_cursor.h>
 #include <firstcontact/text/utf8.h>
@@ -17,14 +18,6 @@ constexpr std::uint8_t kLastFrame = 0x80;
 constexpr std::uint8_t kReserved = 0x70;
 constexpr std::uint8_t kMasked = 0x80;
 constexpr std::size_t kMostControl = 125;
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return result;
-}
 
 /// The byte of the mask for a byte of the payload.
 std::uint8_t mask_byte(std::uint32_t mask, std::size_t at) {

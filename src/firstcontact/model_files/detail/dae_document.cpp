@@ -1,12 +1,12 @@
 #include <firstcontact/model_files/detail/dae_document.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <optional>
 
-#include <firstcontact/model_files/detail/gltf_uri.h>
+#include <firstcontact/math/number_text.h>
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/text_cursor.h>
+#include <firstcontact/text/uri.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -44,18 +44,6 @@ const XmlElement* next_in_document(const XmlElement& element) {
     node = node->Parent();
   }
   return nullptr;
-}
-
-/// As few digits as give the number back.
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  return std::string(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <system_error>
 #include <utility>
 
-#include <firstcontact/model_files/detail/gltf_uri.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/uri.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

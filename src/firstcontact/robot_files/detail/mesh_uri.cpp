@@ -1,5 +1,6 @@
 #include <firstcontact/robot_files/detail/mesh_uri.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -7,20 +8,49 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/text/uri.h>
+
 namespace firstcontact::detail {
 namespace {
 
 constexpr std::string_view kPackage = "package://";
-constexpr std::string_view kFile = "file://";
+constexpr std::string_view kFile = "file:";
+constexpr std::string_view kNoHost = "//";
+constexpr std::string_view kLocalHost = "//localhost/";
 
-/// The roots, then the folders of packages of this name that hold the file, then all above it.
+/// The path of a "file:" URI (RFC 8089), with or without an empty host. One that is relative, which
+/// the standard does not know, is one all the same.
+std::string_view path_of_file_uri(std::string_view rest) {
+  if (rest.starts_with(kLocalHost)) {
+    return rest.substr(kLocalHost.size() - 1);
+  }
+  return rest.starts_with(kNoHost) ? rest.substr(kNoHost.size()) : rest;
+}
+
+/// The path as it is written where there is such a file, else with %20 and the like decoded.
+std::string existing(std::string_view path, const std::filesystem::path& urdf) {
+  std::error_code ignored;
+  const std::optional<std::string> decoded = decode_percent(path);
+  return std::filesystem::exists(urdf.parent_path() / path, ignored) || !decoded ? std::string(path)
+                                                                                 : *decoded;
+}
+
+/// The folder that holds a file. Of a path with ".." it is the real one, whatever links lead to it.
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::absolute(file, ignored).parent_path();
+  const bool goes_up = std::ranges::find(folder, "..") != folder.end();
+  return goes_up ? std::filesystem::weakly_canonical(folder, ignored) : folder;
+}
+
+/// The roots, then the folders of packages of this name that hold the file, then its folder and all
+/// above.
 std::vector<std::filesystem::path> search_path(const std::string& package,
                                                const std::filesystem::path& urdf,
                                                std::span<const std::filesystem::path> roots) {
   std::vector<std::filesystem::path> folders(roots.begin(), roots.end());
-  std::vector<std::filesystem::path> above;
-  std::error_code ignored;
-  std::filesystem::path folder = std::filesystem::absolute(urdf, ignored).parent_path();
+  std::filesystem::path folder = folder_of(urdf);
+  std::vector<std::filesystem::path> above = {folder};
   while (folder.has_relative_path()) {
     const bool is_package = folder.filename() == package;
     folder = folder.parent_path();
@@ -43,8 +73,13 @@ std::string listed(std::span<const std::filesystem::path> roots) {
 std::filesystem::path resolve_mesh(const std::string& uri, const std::filesystem::path& urdf,
                                    std::span<const std::filesystem::path> roots) {
   const std::string_view text = uri;
+  if (text.find("$(") != std::string_view::npos) {
+    throw std::invalid_argument("expected package://, file:// or a path, got '" + uri +
+                                "'; run xacro first");
+  }
   if (text.starts_with(kFile)) {
-    return urdf.parent_path() / text.substr(kFile.size());  // What is absolute replaces the folder.
+    // What is absolute replaces the folder.
+    return urdf.parent_path() / existing(path_of_file_uri(text.substr(kFile.size())), urdf);
   }
   if (!text.starts_with(kPackage)) {
     if (text.find("://") != std::string_view::npos) {

@@ -100,8 +100,8 @@ class RobotLoader {
   void warn(const SceneRobot& robot, const std::vector<std::string>& at_default) {
     std::vector<std::string>& warnings = loaded_.warnings;
     if (!at_default.empty()) {
-      warnings.push_back(robot.name + ": nothing says where " + some_of(at_default) +
-                         (at_default.size() == 1 ? " is; it rests" : " are; they rest") +
+      warnings.push_back(robot.name + ": no position is given for " + some_of(at_default) +
+                         (at_default.size() == 1 ? ": it rests" : ": they rest") +
                          " at 0, or at the limit next to it");
     }
     warnings.insert(warnings.end(), robot.trajectory.warnings.begin(),

@@ -1,8 +1,6 @@
 #include <firstcontact/scene/detail/size_warning.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <variant>
@@ -13,6 +11,7 @@
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/body_shape.h>
@@ -75,17 +74,9 @@ Sized size_of_robot(const LoadedScene& loaded, std::size_t robot) {
           .size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff()};
 }
 
-/// "6,000", "1.2e+07"
+/// "6000", "1.2e+07"
 std::string times(double ratio) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), ratio, std::chars_format::general, 2)
-          .ptr;
-  std::string digits(text.data(), end);
-  if (ratio < 1e6) {
-    digits = std::to_string(static_cast<long long>(ratio));
-  }
-  return digits;
+  return ratio < 1e6 ? std::to_string(static_cast<long long>(ratio)) : rounded(ratio, 2);
 }
 
 std::string offer() {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
@@ -16,14 +17,6 @@ using Kind = TableColumn::Kind;
 
 [[noreturn]] void refuse(std::string_view column, const std::string& why) {
   throw std::invalid_argument("column " + in_quotes(column) + ": " + why);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  }
-  return result;
 }
 
 /// A name, and the unit behind it in brackets; none where it has none.
@@ -104,7 +97,8 @@ std::optional<Meaning> meaning_by_ending(const RobotModel& robot, std::string_vi
 }
 
 void require_seconds(std::string_view column, std::string_view unit) {
-  if (!unit.empty() && unit != "s" && unit != "sec") {
+  constexpr std::array<std::string_view, 5> kWords = {"", "s", "sec", "second", "seconds"};
+  if (std::ranges::find(kWords, unit) == kWords.end()) {
     refuse(column, "expected seconds, got the unit " + in_quotes(unit) +
                        "; convert the numbers, and the name");
   }
@@ -116,21 +110,34 @@ bool is_angle(const RobotModel& robot, const JointCoordinate& coordinate) {
   return type == JointType::planar ? coordinate.index == 2 : type != JointType::prismatic;
 }
 
-/// Positions of a joint that turns are in rad, of one that slides in m.
-void require_unit_of_position(std::string_view column, std::string_view name, std::string_view unit,
-                              const RobotModel& robot) {
+/// How a file may write the unit of a number of a joint, by the order of its derivative.
+std::array<std::string, 3> units_of(bool turns, int order) {
+  const std::string length = turns ? "rad" : "m";
+  return order == 0   ? std::array{length, length, length}
+         : order == 1 ? std::array{length + "/s", length + "/s", length + "/s"}
+                      : std::array{length + "/s^2", length + "/s2", length + "/s²"};
+}
+
+/// Numbers of a joint that turns are in rad, of one that slides in m; per second, or its square.
+///
+/// @param name   of the joint
+/// @param order  of the derivative
+void require_unit(std::string_view column, std::string_view name, std::string_view unit, int order,
+                  const RobotModel& robot) {
+  constexpr std::array kNumbers = {"positions", "velocities", "accelerations"};
   const std::optional<JointCoordinate> coordinate = known_coordinate(robot, name);
   if (!coordinate) {
     return;  // It is fixed: its numbers move nothing.
   }
   const bool turns = is_angle(robot, *coordinate);
-  if (unit == (turns ? "rad" : "m")) {
+  const std::array<std::string, 3> units = units_of(turns, order);
+  if (std::ranges::find(units, unit) != units.end()) {
     return;
   }
-  const bool is_rate = unit == "rad/s" || unit == "m/s";
-  refuse(column, std::string("expected positions in ") +
-                     (turns ? "rad, as the joint turns" : "m, as it slides") + "; got the unit " +
-                     in_quotes(unit) + "; " +
+  const bool is_rate = order == 0 && (unit == "rad/s" || unit == "m/s");
+  refuse(column, std::string("expected ") + kNumbers.at(static_cast<std::size_t>(order)) + " in " +
+                     units[0] + (turns ? ", as the joint turns" : ", as it slides") +
+                     "; got the unit " + in_quotes(unit) + "; " +
                      (is_rate ? "name velocities " + std::string(name) + ".velocity"
                               : "convert the numbers, and the name"));
 }
@@ -148,10 +155,19 @@ Meaning meaning_of(std::string_view column, const RobotModel& robot) {
     return {Kind::time, nullptr, {}};
   }
   if (!unit.empty() && is_joint(robot, name)) {
-    require_unit_of_position(column, name, unit, robot);
+    require_unit(column, name, unit, 0, robot);
     return {.joint = std::string(name)};
   }
   if (const auto meaning = meaning_by_ending(robot, column)) {
+    return *meaning;
+  }
+  if (const auto meaning = meaning_by_ending(robot, name); meaning && !unit.empty()) {
+    if (meaning->kind == Kind::numbers) {
+      const int order = meaning->numbers == &TrajectoryPoint::positions    ? 0
+                        : meaning->numbers == &TrajectoryPoint::velocities ? 1
+                                                                           : 2;
+      require_unit(column, meaning->joint, unit, order, robot);
+    }
     return *meaning;
   }
   return {.joint = std::string(column)};  // The robot says what it has.

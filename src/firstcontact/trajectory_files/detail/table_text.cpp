@@ -6,17 +6,11 @@
 #include <system_error>
 #include <utility>
 
+#include <firstcontact/text/ascii.h>
 #include <firstcontact/text/read_double.h>
 
 namespace firstcontact::detail {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
-}
 
 /// Where the field that begins the text ends: at a separator that is not in quotes.
 std::size_t end_of_field(std::string_view text, char separator) {
