@@ -62,6 +62,36 @@ TEST(ReachPose, FindsBothElbowsOfAPlanarArm) {
   EXPECT_LE(places[0].position_error, 1e-6);
 }
 
+// An arm in a plane has no third coordinate to turn its tip by.
+TEST(ReachPose, TakesAPlaceWithinTheTolerancesWhereThePoseIsOutOfReach) {
+  const ConfigurationSpace space = space_of(planar_arm(2));
+  LinkPoseGoal turned = tip_at(std::cos(0.5) + std::cos(1.3), std::sin(0.5) + std::sin(1.3));
+  for (const double tolerance : {0.5, 0.1, 0.01}) {
+    turned.position_tolerance = 1e-4;
+    turned.rotation_tolerance = tolerance;
+    turned.X_WT.rotation = Eigen::AngleAxisd(1.3 + 0.6 * tolerance, Vector3d::UnitZ());
+    const std::vector<ReachedPose> places = reach_pose(space, turned, {0.0, 0.1});
+    ASSERT_FALSE(places.empty());
+    EXPECT_TRUE(reaches(places[0], turned)) << tolerance << " " << places[0].rotation_error;
+  }
+  LinkPoseGoal far = tip_at(2.02, 0.0);
+  EXPECT_FALSE(reaches(reach_pose(space, far, {0.0, 0.1}).at(0), far));
+  far.position_tolerance = 0.05;
+  EXPECT_TRUE(reaches(reach_pose(space, far, {0.0, 0.1}).at(0), far));
+}
+
+TEST(ReachPose, PassesOverPlacesThatWillNotDo) {
+  const ConfigurationSpace space = space_of(planar_arm(2));
+  const LinkPoseGoal goal = tip_at(1.0, 1.0);
+  const auto bends_back = [](const Configuration& q) { return std::sin(q[1]) < 0.0; };
+  const std::vector<ReachedPose> places =
+      reach_pose(space, goal, {0.1, 1.5}, {.places = 1, .accepts = bends_back});
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_TRUE(reaches(places[0], goal) && bends_back(places[0].q));
+  EXPECT_TRUE(
+      reach_pose(space, goal, {0.1, 1.5}, {.accepts = [](const auto&) { return false; }}).empty());
+}
+
 TEST(ReachPose, TellsHowFarIsOutOfReach) {
   const ConfigurationSpace space = space_of(planar_arm(2));
   const LinkPoseGoal goal = tip_at(3.0, 4.0);

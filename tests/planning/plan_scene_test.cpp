@@ -326,6 +326,49 @@ TEST_F(GantryFile, PlansToThePoseOfALink) {
             std::string::npos);
 }
 
+// A held body has the motion of its link, whatever its own is; and where nothing is tested, nothing
+// is proven of distances.
+TEST_F(GantryFile, LeavesOutTheMotionOfWhatIsHeld) {
+  const Scene asked = parse_scene(R"({"firstcontact": 1, "bodies": [
+      {"name": "load", "shape": {"box": {"size": [0.1, 0.1, 0.1]}},
+       "motion": {"type": "constant_velocity", "translation": [1, 0, 0]}}],
+    "robots": [{"name": "g", "urdf": "gantry.urdf", "attached": [
+      {"body": "load", "link": "tool", "pose": {"position": [0, 0, -0.5]}, "touch_links": ["tool"]}]}],
+    "plan": {"goal": {"x": 1}}})",
+                                  folder_ / "scene.json", 1, {});
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(asked, *asked.plan, cache);
+  EXPECT_FALSE(plan.plan.times);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  EXPECT_EQ(result.verdict, PlanVerdict::proven);
+  EXPECT_FALSE(planned_path(plan, plan.options, result).clearance);
+}
+
+// Of the places of a goal many are in contact: a joint that does not move the link decides.
+TEST_F(GantryFile, LooksForFreePlacesOfAGoal) {
+  std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry"><link name="base"/>
+      <link name="slide"/>
+      <link name="flag"><collision><origin xyz="0.5 0 0"/>
+        <geometry><box size="1 0.02 0.02"/></geometry></collision></link>
+      <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/>
+        <axis xyz="1 0 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+      <joint name="turn" type="revolute"><parent link="slide"/><child link="flag"/>
+        <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>)";
+  ShapeCache cache;
+  for (int seed = 1; seed <= 10; ++seed) {
+    const Scene asked =
+        parse_scene(R"({"firstcontact": 1, "bodies": [
+        {"name": "left", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0.4, 4.7, 0]}},
+        {"name": "right", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0.4, -4.7, 0]}}],
+      "robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": 0, "turn": 0}}],
+      "plan": {"joints": ["x", "turn"], "seed": )" +
+                        std::to_string(seed) +
+                        R"(, "goal": {"link": "slide", "pose": {"position": [1, 0, 0]}}}})",
+                    folder_ / "scene.json", 1, {});
+    EXPECT_GT(make_scene_plan(asked, *asked.plan, cache).goals.size(), 0u) << seed;
+  }
+}
+
 TEST_F(GantryFile, KeepsTheLimitsOfJointsThatMimic) {
   std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry">
       <link name="base"/><link name="slide"/>

@@ -30,11 +30,6 @@ Pose pose_of(const Configuration& q) {
   return {{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])};
 }
 
-Configuration configuration_of(const Pose& pose) {
-  const Eigen::Quaterniond& r = pose.rotation;
-  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
-}
-
 /// [rad]  Of the shortest rotation between two quaternions of any length.
 double angle_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond way = from.conjugate() * to;
@@ -128,6 +123,11 @@ void set_path(const SpaceCoordinate& coordinate, CoordinatePath path, const Robo
 }
 
 }  // namespace
+
+Configuration configuration_of(const Pose& pose) {
+  const Eigen::Quaterniond& r = pose.rotation;
+  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
+}
 
 ConfigurationSpace::ConfigurationSpace(RobotModel model) {
   const double reach = length_of(model);

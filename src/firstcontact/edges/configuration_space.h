@@ -26,6 +26,9 @@ class RandomNumbers;
 /// A body has its position [m] and then its quaternion w, x, y, z, both in the world.
 using Configuration = std::vector<double>;
 
+/// The configuration of a body at a pose.
+[[nodiscard]] FIRSTCONTACT_API Configuration configuration_of(const Pose& pose);
+
 /// One number of a configuration of joints.
 struct SpaceCoordinate {
   std::string name;          ///< As trajectories call it; ROBOT/NAME where several robots move.

@@ -18,6 +18,7 @@
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/robot/rest.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/text/write_json.h>
@@ -47,33 +48,14 @@ void require_options(const EdgeCheckOptions& options) {
   }
 }
 
-bool is_zero(const DoubleDouble& number) { return number.hi == 0.0 && number.lo == 0.0; }
-
-bool is_constant(const CoordinatePath& path) {
-  const DoubleDouble& first = path.segments().front().a[0];
-  return std::ranges::all_of(path.segments(), [&](const CoordinateSegment& segment) {
-    return std::all_of(segment.a.begin() + 1, segment.a.end(), is_zero) &&
-           is_zero(segment.a[0] - first);
-  });
-}
-
-bool is_constant(const JointMotion& motion) {
-  if (const auto* path = std::get_if<CoordinatePath>(&motion)) {
-    return is_constant(*path);
-  }
-  const auto* paths = std::get_if<PlanarPath>(&motion);
-  return paths != nullptr &&
-         std::ranges::all_of(*paths, [](const CoordinatePath& path) { return is_constant(path); });
-}
-
-bool rests(const RobotMotion& motion) {
+bool is_at_rest(const RobotMotion& motion) {
   bool all = motion.base_path(0.5).rest() != nullptr;
   for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
     const JointPath* path = motion.joint_path(joint, 0.5);
     const std::optional<JointMotion> given = motion.given(joint);
     // A joint that mimics rests with the one that it mimics.
     all = all && (path == nullptr || path->rest() != nullptr ||
-                  (given ? is_constant(*given) : motion.model().joints()[joint].mimic.has_value()));
+                  (given ? rests(*given) : motion.model().joints()[joint].mimic.has_value()));
   }
   return all;
 }
@@ -112,7 +94,7 @@ void require_at_rest(const PlanScene& plan) {
     }
   }
   for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
-    if (!plan.mover(robot) && !rests(scene.robot_motion(robot))) {
+    if (!plan.mover(robot) && !is_at_rest(scene.robot_motion(robot))) {
       throw std::invalid_argument("robot " + detail::in_quotes(scene.robot_name(robot)) +
                                   " moves by itself; a path is planned among robots at rest");
     }

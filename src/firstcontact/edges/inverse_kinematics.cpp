@@ -24,6 +24,8 @@ constexpr int kPatience = 8;           // Iterations in which the error has to f
 constexpr double kWorthwhile = 0.999;  // this share; else the search is at its nearest place.
 constexpr double kLongestStep = 0.5;   // [rad or m]  Of a coordinate in one iteration.
 constexpr double kSame = 1e-3;         // Of the space's length: two places are one.
+constexpr double kOfTolerance = 0.9;   // Share of it that the second search heads for.
+constexpr double kMoreTurns = 3.0;     // Where turns differ: so many times the span of samples.
 
 void require_goal(bool condition, const char* what) {
   if (!condition) {
@@ -54,10 +56,22 @@ class PoseSearch {
         X_LT_(precise(goal.X_LT)),
         R_WT_(goal.X_WT.rotation.normalized().toRotationMatrix()) {}
 
+  /// Goes from a place towards the goal, and from where that ends towards its tolerances.
+  ReachedPose run(const Configuration& q) {
+    const ReachedPose exact = approach(q);
+    if (reaches(exact, goal_)) {
+      return exact;
+    }
+    is_loose_ = true;
+    ReachedPose loose = approach(exact.q);
+    is_loose_ = false;
+    return reaches(loose, goal_) ? loose : exact;
+  }
+
   /// Goes from a place towards the goal as far as that helps.
   ///
   /// @param is_patient  also where it helps little
-  ReachedPose run(Configuration q, bool is_patient = false) {
+  ReachedPose approach(Configuration q, bool is_patient = false) {
     for (std::size_t k = 0; k < q.size(); ++k) {
       q[k] = within_limits(k, q[k]);
     }
@@ -91,12 +105,22 @@ class PoseSearch {
            error.tail<3>().norm() <= 1e-3 * goal_.rotation_tolerance;
   }
 
-  /// [m]  With a metre for a radian.
+  /// [m]  With a metre for a radian; of a loose search, what is beyond the tolerances.
   [[nodiscard]] Vector6 weighed(Vector6 error) const {
     if (!has_rotation_) {
       error.tail<3>().setZero();
     }
+    if (is_loose_) {
+      error.head<3>() *= share_beyond(error.head<3>().norm(), goal_.position_tolerance);
+      error.tail<3>() *= share_beyond(error.tail<3>().norm(), goal_.rotation_tolerance);
+    }
     return error;
+  }
+
+  /// [-]  The share of an error that is beyond what a loose search heads for.
+  [[nodiscard]] static double share_beyond(double error, double tolerance) {
+    const double kept = kOfTolerance * tolerance;
+    return error > kept ? 1.0 - kept / error : 0.0;
   }
 
   [[nodiscard]] LinkPath path(const Configuration& from, const Configuration& to) const {
@@ -128,6 +152,10 @@ class PoseSearch {
   /// A damped step; coordinates that it would take beyond a limit stay there.
   Configuration stepped(const Configuration& q, const Vector6& error, double damping) {
     Jacobian J = jacobian(q);
+    if (is_loose_) {  // What is within its tolerance may change.
+      J.topRows<3>() *= error.head<3>().isZero(0.0) ? 0.0 : 1.0;
+      J.bottomRows<3>() *= error.tail<3>().isZero(0.0) ? 0.0 : 1.0;
+    }
     Configuration next = q;
     std::vector<bool> is_held(q.size(), false);
     for (std::size_t round = 0; round <= q.size(); ++round) {
@@ -178,6 +206,7 @@ class PoseSearch {
   const ConfigurationSpace& space_;
   const LinkPoseGoal& goal_;
   bool has_rotation_;
+  bool is_loose_ = false;
   PreciseTransform X_LT_;
   Eigen::Matrix3d R_WT_;
   LinkScratch scratch_;
@@ -207,6 +236,7 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
   RandomNumbers random(options.seed);
   std::vector<ReachedPose> found;
   std::optional<ReachedPose> nearest;
+  bool is_reached = false;
   for (std::size_t k = 0; k < options.tries && found.size() < options.places; ++k) {
     if (options.stop.stop_requested() ||
         (options.deadline && std::chrono::steady_clock::now() >= *options.deadline)) {
@@ -214,9 +244,13 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
     }
     Configuration from = k == 0 ? start : space.sample(random);
     for (std::size_t c = 0; c < from.size(); ++c) {
-      from[c] = space.coordinates()[c].mover == goal.mover ? from[c] : start[c];
+      const SpaceCoordinate& coordinate = space.coordinates()[c];
+      const bool may_turn_on = !coordinate.has_limits && !coordinate.slides &&
+                               !coordinate.turns_short && k % 2 == 0 && k > 0;
+      from[c] =
+          coordinate.mover != goal.mover ? start[c] : (may_turn_on ? kMoreTurns : 1.0) * from[c];
     }
-    ReachedPose place = search.run(std::move(from));
+    ReachedPose place = search.run(from);
     if (!reaches(place, goal)) {
       const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
       if (!nearest || size(place) < size(*nearest)) {
@@ -224,18 +258,19 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
       }
       continue;
     }
+    is_reached = true;
     const bool is_new = std::none_of(found.begin(), found.end(), [&](const ReachedPose& other) {
       return space.distance(place.q, other.q) < kSame;
     });
-    if (is_new) {
+    if (is_new && (!options.accepts || options.accepts(place.q))) {
       found.push_back(std::move(place));
     }
   }
   std::stable_sort(found.begin(), found.end(), [&](const ReachedPose& a, const ReachedPose& b) {
     return space.distance(start, a.q) < space.distance(start, b.q);
   });
-  if (found.empty() && nearest) {
-    found.push_back(search.run(nearest->q, true));
+  if (!is_reached && nearest) {
+    found.push_back(search.approach(nearest->q, true));
   }
   return found;
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -35,7 +36,9 @@ struct ReachedPose {
 
 struct ReachOptions {
   std::size_t places = 8;   ///< At most so many are found.
-  std::size_t tries = 100;  ///< Places from which the search begins: the start, then random ones.
+  std::size_t tries = 300;  ///< Places from which the search begins: the start, then random ones.
+  /// Whether a place will do, such as one that is free; others are passed over. All, where empty.
+  std::function<bool(const Configuration&)> accepts = {};
   std::uint64_t seed = 1;
   std::optional<std::chrono::steady_clock::time_point> deadline =
       {};                     ///< Ends with what was found.
@@ -47,13 +50,14 @@ struct ReachOptions {
 /// Damped least squares (C. Wampler, "Manipulator inverse kinematic solutions based on vector
 /// formulations and damped least-squares methods", IEEE Transactions on Systems, Man, and
 /// Cybernetics 16 (1986)), from the start and from random places. Coordinates that would leave
-/// their limits are held there while the others go on. The result is the same for a seed. No place
-/// that is found says nothing: there may be one.
+/// their limits are held there while the others go on. Where the pose itself is not reached, a
+/// second search heads for its tolerances alone. The result is the same for a seed. No place that
+/// is found says nothing: there may be one.
 ///
 /// @param start  a configuration of the space
 /// @returns  places with both errors within the tolerances. No two are closer than 1e-3 by the
-///           space's length. Without such a place: the nearest one, whose errors are larger. Empty
-///           where the time was over before the first.
+///           space's length. Without any, accepted or not: the nearest one, whose errors are
+///           larger. Empty where none was accepted, and where the time was over before the first.
 /// @throws std::invalid_argument for the space of a body, an unknown link, a start of another size,
 ///         a pose that is not finite or has a zero quaternion, or a tolerance that is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/planning/detail/blocked_place.h>
@@ -44,7 +45,7 @@ void require_plan(bool condition, const std::string& what) {
 
 void require_plan_options(const PlanOptions& options) {
   require_plan(options.time > 0.0 && std::isfinite(options.time),
-               "the time must be finite and > 0 s, got " + std::to_string(options.time));
+               "the time must be finite and > 0 s, got " + detail::shortest(options.time));
   require_plan(options.range >= 0.0 && std::isfinite(options.range),
                "the range must be finite and >= 0");
   require_plan(options.contacts == ContactUse::none || options.planner == Planner::rrt_connect,

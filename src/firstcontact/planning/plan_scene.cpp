@@ -43,6 +43,15 @@ bool is_planned(const PlanQuestion& question, std::size_t robot) {
   return std::ranges::find(question.robots, robot) != question.robots.end();
 }
 
+/// Whether a robot holds a body, whose own motion has no meaning then.
+bool is_held(const Scene& scene, std::size_t body) {
+  return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
+    return std::ranges::any_of(robot.attached, [&](const SceneAttachment& held) {
+      return held.body == body && held.pose;
+    });
+  });
+}
+
 /// The name of something other than the movers that moves; none where all else rests.
 std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& question) {
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
@@ -51,7 +60,8 @@ std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& qu
     }
   }
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    if (question.body != k && !std::holds_alternative<FixedMotion>(scene.bodies[k].motion)) {
+    if (question.body != k && !is_held(scene, k) &&
+        !std::holds_alternative<FixedMotion>(scene.bodies[k].motion)) {
       return "body " + in_quotes(scene.bodies[k].name);
     }
   }
@@ -281,11 +291,6 @@ ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question) {
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
 }
 
-Configuration configuration_of_pose(const Pose& pose) {
-  const Eigen::Quaterniond& r = pose.rotation;
-  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
-}
-
 /// The scene as its check has it, with the mover as a robot of its own: numbered alike.
 RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
                          const ConfigurationSpace& space, const Configuration& start) {
@@ -326,10 +331,10 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
   const Body& body = loaded.scene.bodies[mover];
   const Shape& shape = shape_of_body(loaded, mover);
   const Pose start_pose = std::get<FixedMotion>(body.motion).pose;
-  Configuration start = configuration_of_pose(start_pose);
+  Configuration start = configuration_of(start_pose);
   std::vector<Configuration> goals;
   for (const Pose& goal : question.goal_poses) {
-    goals.push_back(configuration_of_pose(with_unit_quaternion(goal)));
+    goals.push_back(configuration_of(with_unit_quaternion(goal)));
   }
   const auto space_in = [&](const std::array<Eigen::Vector3d, 2>& box) {
     return ConfigurationSpace::of_body(body.name, shape, box[0], box[1]);
@@ -378,8 +383,8 @@ PlanQuestion question_of_trajectory(const Scene& scene) {
   }
   const Trajectory& trajectory = scene.robots.front().trajectory;
   if (trajectory.joint_names.empty() || trajectory.points.size() < 2) {
-    refuse_plan("expected a start and a goal; nothing tells where robot " +
-                in_quotes(scene.robots.front().name) + " is to go");
+    refuse_plan("expected a start and a goal; robot " + in_quotes(scene.robots.front().name) +
+                " has no goal");
   }
   PlanQuestion question;
   question.robots = {0};

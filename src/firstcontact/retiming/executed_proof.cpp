@@ -12,6 +12,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/retiming/detail/held_stretches.h>
+#include <firstcontact/robot/rest.h>
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot/tracking_error.h>
 #include <firstcontact/scene/trajectory.h>
@@ -21,40 +22,6 @@
 
 namespace firstcontact {
 namespace {
-
-bool is_constant(std::span<const CoordinateSegment> segments) {
-  const auto rests = [](const CoordinateSegment& segment) {
-    for (std::size_t j = 1; j < segment.count; ++j) {
-      if (segment.a[j].hi != 0.0) {
-        return false;
-      }
-    }
-    return true;
-  };
-  return std::all_of(segments.begin(), segments.end(), rests);
-}
-
-bool is_constant(const CoordinatePath& path) { return is_constant(path.segments()); }
-
-/// A motion of one piece that neither turns nor moves: after whole turns poses would be the same.
-bool is_constant(const Motion& motion) {
-  if (motion.breaks().size() != 2) {
-    return false;
-  }
-  const ConstantRatePath path = motion.path(0, Eigen::Vector3d::Zero());
-  return path.rate() == 0.0 && path.pivot_velocity().value().isZero(0.0);
-}
-
-bool is_constant(const JointMotion& motion) {
-  if (const auto* planar = std::get_if<PlanarPath>(&motion)) {
-    return std::all_of(planar->begin(), planar->end(),
-                       [](const CoordinatePath& path) { return is_constant(path); });
-  }
-  if (const auto* path = std::get_if<CoordinatePath>(&motion)) {
-    return is_constant(*path);
-  }
-  return is_constant(std::get<Motion>(motion));
-}
 
 [[noreturn]] void refuse_moving(const std::string& what) {
   throw std::invalid_argument(what + " moves; retiming changes the time of the motion, so that " +
@@ -121,7 +88,7 @@ RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before
 }
 
 /// Whether a coordinate stays where it is, to the rounding that a proof allows for.
-bool rests(std::span<const CoordinateSegment> segments) {
+bool rests_nearly(std::span<const CoordinateSegment> segments) {
   double low = segments.front().a[0].hi;
   double high = low;
   for (const CoordinateSegment& segment : segments) {
@@ -145,7 +112,7 @@ std::vector<LimitViolation> violations_of(const TimedMotion& motion, const Robot
     const std::string& name = robot.model().joints()[violation.joint].name;
     const bool is_named = std::ranges::find(motion.joint_names, name) != motion.joint_names.end();
     return (is_named && violation.what == JointLimit::velocity) ||
-           rests(robot.coordinate(violation.joint));
+           rests_nearly(robot.coordinate(violation.joint));
   });
   return violations;
 }
@@ -251,13 +218,13 @@ void require_resting_surroundings(const RetimingScene& where) {
   for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
     const RobotMotion& motion = scene.robot_motion(robot);
     const bool is_moved = std::ranges::find(where.robots, robot) != where.robots.end();
-    if (!is_constant(motion.base())) {
+    if (!rests(motion.base())) {
       refuse_moving("the base of robot " + detail::in_quotes(scene.robot_name(robot)));
     }
     for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
       const std::optional<JointMotion> given = motion.given(joint);
       const bool may_move = is_moved && coordinate_count(motion.model().joints()[joint].type) > 0;
-      if (given && !may_move && !is_constant(*given)) {
+      if (given && !may_move && !rests(*given)) {
         refuse_moving("robot " + detail::in_quotes(scene.robot_name(robot)));
       }
     }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_error.h>
@@ -164,7 +165,7 @@ std::map<std::string, GivenLimits> parse_joint_limits(std::string_view text,
                                                       const std::filesystem::path& source,
                                                       const RobotModel& robot) {
   const std::string name = source.string();
-  if (!detail::is_tree_extension(detail::lower_extension(source))) {
+  if (!detail::is_tree_extension(detail::file_extension(source))) {
     throw ParseError(name, "expected limits of joints, a .yaml or .json file");
   }
   const JsonValue root = detail::parse_tree(text, source);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/math/sine_cosine.h>
 
 namespace firstcontact {
@@ -371,7 +372,7 @@ CoordinatePath CoordinatePath::polynomials(std::span<const double> times,
     if (k > 0) {
       const double before = segments[k - 1].state(times[k]).value.hi;
       if (!(std::abs(before - segments[k].a[0].hi) <= kJump)) {
-        refuse("the coordinate jumps at time " + std::to_string(times[k]) +
+        refuse("the coordinate jumps at time " + detail::shortest(times[k]) +
                "; let neighbouring pieces meet");
       }
     }

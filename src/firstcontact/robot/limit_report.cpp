@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
@@ -237,7 +238,7 @@ void check_velocity(std::span<const CoordinateSegment> segments, std::size_t joi
 void require_positive(double value, const char* what) {
   if (!(value > 0.0 && std::isfinite(value))) {
     throw std::invalid_argument(std::string("limit_report: ") + what +
-                                " must be finite and > 0, got " + std::to_string(value));
+                                " must be finite and > 0, got " + detail::shortest(value));
   }
 }
 

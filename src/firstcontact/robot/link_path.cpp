@@ -191,18 +191,9 @@ double LinkWindow::support(const RoundedBox& box, const Vector3d& n, const Vecto
 }
 
 DirectedBound LinkWindow::displacement(const RoundedBox& box, const Vector3d& n) const {
-  return displacement(box, n, 1.0, t_to_ - t_);
-}
-
-DirectedBound LinkWindow::displacement_back(const RoundedBox& box, const Vector3d& n) const {
-  return displacement(box, n, -1.0, t_ - t_from_);
-}
-
-DirectedBound LinkWindow::displacement(const RoundedBox& box, const Vector3d& n, double direction,
-                                       double T) const {
-  const double speed = support(box, n, direction * velocity_, direction * spin_) + speed_error_;
+  const double speed = support(box, n, velocity_, spin_) + speed_error_;
   const double acceleration = support(box, n, acceleration_, spin_rate_) + acceleration_error_ +
-                              kUp * bounds_.jerk * T / 3.0;
+                              kUp * bounds_.jerk * (t_to_ - t_) / 3.0;
   return {std::min(speed, bounds_.rate), std::min(acceleration, bounds_.acceleration)};
 }
 

@@ -90,20 +90,12 @@ class FIRSTCONTACT_API LinkWindow {
   /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
   [[nodiscard]] DirectedBound displacement(const RoundedBox& box, const Eigen::Vector3d& n) const;
 
-  /// A bound of the displacement along n from t back to t_from(): it holds for the motion in
-  /// reverse.
-  [[nodiscard]] DirectedBound displacement_back(const RoundedBox& box,
-                                                const Eigen::Vector3d& n) const;
-
   /// [m per step]  A bound of the velocity along n of every point of the box, at every time of
   /// the window.
   [[nodiscard]] double speed_bound(const RoundedBox& box, const Eigen::Vector3d& n) const;
 
  private:
   friend class LinkPath;
-
-  [[nodiscard]] DirectedBound displacement(const RoundedBox& box, const Eigen::Vector3d& n,
-                                           double direction, double T) const;
 
   /// The greatest n . (linear + angular e) over the box's offsets e from the link's origin.
   [[nodiscard]] double support(const RoundedBox& box, const Eigen::Vector3d& n,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/math/sine_cosine.h>
 #include <firstcontact/robot/detail/joint_frame.h>
 #include <firstcontact/robot/precise_transform.h>
@@ -139,8 +140,8 @@ void require_sizes(const Joint& joint, const CoordinatePath& path, double multip
     const double size = std::abs(multiplier) * segment.size_bound() + std::abs(offset);
     if (!(size <= kMaximumAngle)) {
       refuse(joint.name,
-             "may run beyond 1e8 at times between " + std::to_string(segment.t_begin) + " and " +
-                 std::to_string(segment.t_end) +
+             "may run beyond 1e8 at times between " + detail::shortest(segment.t_begin) + " and " +
+                 detail::shortest(segment.t_end) +
                  "; give it smaller positions, velocities, accelerations or multiplier");
     }
   }

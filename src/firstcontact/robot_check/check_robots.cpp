@@ -311,6 +311,9 @@ class RobotCheck {
       }
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
+      if (!timeline_.is_tested(timeline_.pairs()[k])) {
+        return;  // The two are nowhere of interest.
+      }
       const UndecidedReason reason = spent();
       answer_of(k).closest =
           reason == UndecidedReason::none
@@ -389,6 +392,10 @@ class RobotCheck {
     pair.intervals = options_.all_contacts_in_time
                          ? detail::joined(std::move(pair.intervals), options_.time_resolution)
                          : std::vector<ContactInterval>();
+    if (!timeline_.is_tested(timeline_.pairs()[index])) {
+      pair.clearance = std::numeric_limits<double>::infinity();
+      return;
+    }
     const double proven = holds_ ? holds_->least(index) : pair.margin;
     pair.clearance =
         std::max(pair.t > 0.0 ? proven : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
@@ -406,7 +413,8 @@ class RobotCheck {
     PairAnswer& pair = pairs_[place];
     const std::vector<std::array<std::size_t, 2>>& known = deciding_geometries_[place];
     const double band = pair.margin + pair.tolerance_used + options_.contact_band;
-    for (const std::array<std::size_t, 2>& geometries : detail::geometries_of(timeline_, index)) {
+    for (const std::array<std::size_t, 2>& geometries :
+         timeline_.geometry_pairs(timeline_.pairs()[index])) {
       if (std::find(known.begin(), known.end(), geometries) != known.end()) {
         continue;
       }

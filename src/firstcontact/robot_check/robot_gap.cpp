@@ -8,6 +8,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/robot_check/detail/link_query.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/robot_check/detail/swept_ball.h>
@@ -119,14 +120,9 @@ class GapSampler {
       if (!timeline_.is_tested(pair, piece)) {
         continue;
       }
-      const auto [first, second] = pair.members;
-      for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
-           ++a) {
-        for (std::size_t b = timeline_.first_geometry(second);
-             b < timeline_.first_geometry(second + 1); ++b) {
-          const double errors = balls[a].tracking_error + balls[b].tracking_error;
-          all.push_back({detail::gap_bound(balls[a], balls[b]), pair.margin + errors, {a, b}});
-        }
+      for (const auto& [a, b] : timeline_.geometry_pairs(pair)) {
+        const double errors = balls[a].tracking_error + balls[b].tracking_error;
+        all.push_back({detail::gap_bound(balls[a], balls[b]), pair.margin + errors, {a, b}});
       }
     }
     std::sort(all.begin(), all.end(), [this](const NearGeometries& x, const NearGeometries& y) {
@@ -153,7 +149,7 @@ std::vector<RobotGap> robot_gaps(const RobotScene& scene, std::span<const double
   std::vector<RobotGap> gaps;
   for (const double t : times) {
     if (!(t >= 0.0 && t <= 1.0)) {
-      throw std::invalid_argument("robot_gaps: t must be in [0, 1], got " + std::to_string(t));
+      throw std::invalid_argument("robot_gaps: t must be in [0, 1], got " + detail::shortest(t));
     }
     if (stop.stop_requested()) {
       break;

@@ -9,7 +9,9 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot/rest.h>
 
 namespace firstcontact {
 namespace {
@@ -20,17 +22,9 @@ namespace {
 
 double checked(double value, const std::string& what) {
   if (!(value >= 0.0 && std::isfinite(value))) {
-    refuse(what + " must be finite and >= 0, got " + std::to_string(value));
+    refuse(what + " must be finite and >= 0, got " + detail::shortest(value));
   }
   return value;
-}
-
-bool is_at_rest(const Motion& motion) {
-  if (motion.breaks().size() != 2) {
-    return false;
-  }
-  const ConstantRatePath path = motion.path(0, Eigen::Vector3d::Zero());
-  return path.rate() == 0.0 && path.pivot_velocity().value().isZero(0.0);
 }
 
 std::vector<MemberGeometry> geometries_of(const std::string& name, const Link& link) {
@@ -107,7 +101,7 @@ std::size_t RobotScene::add_body(std::string name, Shape shape, Motion X_WB) {
   const FloatEnvironmentGuard guard;
   Member body{.name = std::move(name), .geometries = {}, .link = {}};
   body.geometries.push_back({std::move(shape), {}});
-  body.rests = !body.geometries.front().shape.hierarchy().deforms() && is_at_rest(X_WB);
+  body.rests = !body.geometries.front().shape.hierarchy().deforms() && firstcontact::rests(X_WB);
   for (std::size_t k = 0; k + 1 < X_WB.breaks().size(); ++k) {
     body.paths.push_back(std::make_shared<const JointPath>(
         JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero()))));

@@ -45,7 +45,7 @@ StartGap gap_at(const PlanScene& plan, const Configuration& q, const BodyPair& m
   LinkWorkspace workspace;
   WorkCount work;
   StartGap gap;
-  for (const auto& geometries : geometries_of(timeline, pair)) {
+  for (const auto& geometries : timeline.geometry_pairs(*found)) {
     const GeometryCandidate candidate{.window = timeline.piece(0),
                                       .pair = pair,
                                       .geometries = geometries,

@@ -77,8 +77,7 @@ void require_mimicked(const ConfigurationSpace& space, const Configuration& goal
 /// @returns  one sentence where there is none
 std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& scene,
                                          const LinkGoal& wanted, const Configuration& start,
-                                         const ReachOptions& options,
-                                         std::vector<Configuration>& goals) {
+                                         ReachOptions options, std::vector<Configuration>& goals) {
   const double tolerance = scene.options.tolerance;
   const RobotName split = split_robot_name(scene, plan.robots, wanted.link);
   const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(split.which), wanted, split.name),
@@ -87,8 +86,32 @@ std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& sce
                           .X_WT = wanted.X_WT,
                           .position_tolerance = wanted.position_tolerance,
                           .rotation_tolerance = wanted.rotation_tolerance};
+  const EdgeCheckOptions defaults;
+  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As the search.
+  std::optional<EdgeChecker> checker;
+  std::size_t count_blocked = 0;
+  std::optional<Configuration> blocked;  // The first.
+  if (!plan.times) {  // Else whether they are free depends on the time: the search finds out.
+    const ContactEnds contacts(plan, start, {}, kept, tolerance);
+    checker.emplace(plan, EdgeCheckOptions{.tolerance = tolerance,
+                                           .extra_clearance = kept,
+                                           .held = contacts.held_in_search(EdgePlace::inner)});
+    options.accepts = [&](const Configuration& q) {
+      const bool is_free = checker->is_free(q);
+      count_blocked += is_free ? 0 : 1;
+      if (!is_free && !blocked) {
+        blocked = q;
+      }
+      return is_free;
+    };
+  }
   const std::vector<ReachedPose> places = reach_pose(plan.space, goal, start, options);
   const std::string name = "the pose of link " + in_quotes(wanted.link);
+  if (places.empty() && blocked) {
+    return describe_blocked(
+        *checker, *blocked,
+        name + " (all " + std::to_string(count_blocked) + " places of the joints that were found)");
+  }
   if (places.empty()) {
     return name + ": no time was left to look for places of the joints";
   }
@@ -98,30 +121,8 @@ std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& sce
            write_json(nearest.position_error) + " m and " + write_json(nearest.rotation_error) +
            " rad off";
   }
-  if (plan.times) {
-    // Whether they are free depends on the time: the search finds out.
-    std::transform(places.begin(), places.end(), std::back_inserter(goals),
-                   [](const ReachedPose& place) { return place.q; });
-    return std::nullopt;
-  }
-  const EdgeCheckOptions defaults;
-  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As the search.
-  const ContactEnds contacts(plan, start, {}, kept, tolerance);
-  const EdgeChecker checker(plan, {.tolerance = tolerance,
-                                   .extra_clearance = kept,
-                                   .held = contacts.held_in_search(EdgePlace::inner)});
-  const std::size_t before = goals.size();
-  for (const ReachedPose& place : places) {
-    if (checker.is_free(place.q)) {
-      goals.push_back(place.q);
-    }
-  }
-  if (goals.size() > before) {
-    return std::nullopt;
-  }
-  return describe_blocked(
-      checker, places.front().q,
-      name + " (all " + std::to_string(places.size()) + " places of the joints that were found)");
+  std::ranges::transform(places, std::back_inserter(goals), &ReachedPose::q);
+  return std::nullopt;
 }
 
 }  // namespace

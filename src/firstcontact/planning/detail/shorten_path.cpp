@@ -8,17 +8,23 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr double kWorthwhile = 1e-4;  // [-]  Share of the cost of a stretch that is to be saved.
-constexpr std::size_t kLongestWait = 25;  // Tries in a row that have not helped.
+/// Tries in a row that have not helped, and as a share of all: then the path is as short as it
+/// gets.
+constexpr std::size_t kLongestWait = 25;
+constexpr std::size_t kTriesOfWait = 4;
 
 class Shortcuts {
  public:
   Shortcuts(PlanWork& work, std::vector<Configuration>& path, std::size_t tries)
-      : work_(work), path_(path), left_(tries) {}
+      : work_(work),
+        path_(path),
+        left_(tries),
+        longest_wait_(std::max(kLongestWait, tries / kTriesOfWait)) {}
 
   void run(RandomNumbers& random) {
     skip_places();
     std::size_t waited = 0;
-    while (path_.size() > 2 && may_try() && waited < kLongestWait) {
+    while (path_.size() > 2 && may_try() && waited < longest_wait_) {
       const bool in_one_coordinate = !work_.space().is_body() && random.below(3) == 0;
       waited = (in_one_coordinate ? cut_coordinate(random) : cut(random)) ? 0 : waited + 1;
     }
@@ -159,13 +165,14 @@ class Shortcuts {
   PlanWork& work_;
   std::vector<Configuration>& path_;
   std::size_t left_;
+  std::size_t longest_wait_;
 };
 
 }  // namespace
 
 void shorten_path(PlanWork& work, std::vector<Configuration>& path, std::size_t tries,
                   RandomNumbers& random) {
-  if (path.size() > 2) {
+  if (path.size() > 2 && tries > 0) {
     Shortcuts(work, path, tries).run(random);
   }
 }

@@ -119,15 +119,10 @@ class Search {
       if (!timeline_.is_tested(pair, piece_) || (wanted && !wanted(k))) {
         continue;
       }
-      const auto [first, second] = pair.members;
-      for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
-           ++a) {
-        for (std::size_t b = timeline_.first_geometry(second);
-             b < timeline_.first_geometry(second + 1); ++b) {
-          const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
-          if (!(gap.maxCoeff() > margin_of(k) * kUp)) {
-            near.push_back({.pair = k, .geometries = {a, b}});
-          }
+      for (const auto& [a, b] : timeline_.geometry_pairs(pair)) {
+        const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
+        if (!(gap.maxCoeff() > margin_of(k) * kUp)) {
+          near.push_back({.pair = k, .geometries = {a, b}});
         }
       }
     }

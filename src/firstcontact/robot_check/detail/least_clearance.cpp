@@ -19,18 +19,13 @@ std::vector<Place> places_by_distance(const RobotTimeline& timeline, const Balls
                                       std::size_t index) {
   std::vector<Place> places;
   const TestedPair& pair = timeline.pairs()[index];
-  const auto [first, second] = pair.members;
   for (std::size_t piece = 0; piece < timeline.piece_count(); ++piece) {
     if (!timeline.is_tested(pair, piece)) {
       continue;
     }
-    for (std::size_t a = timeline.first_geometry(first); a < timeline.first_geometry(first + 1);
-         ++a) {
-      for (std::size_t b = timeline.first_geometry(second); b < timeline.first_geometry(second + 1);
-           ++b) {
-        places.push_back({{timeline.piece(piece), piece, index, {a, b}, 0.0},
-                          gap_bound(balls[piece][a], balls[piece][b])});
-      }
+    for (const auto& [a, b] : timeline.geometry_pairs(pair)) {
+      places.push_back({{timeline.piece(piece), piece, index, {a, b}, 0.0},
+                        gap_bound(balls[piece][a], balls[piece][b])});
     }
   }
   std::stable_sort(places.begin(), places.end(),

@@ -119,15 +119,10 @@ class Search {
     if (!timeline_.is_tested(pair, piece)) {
       return;
     }
-    const auto [first, second] = pair.members;
-    for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
-         ++a) {
-      for (std::size_t b = timeline_.first_geometry(second);
-           b < timeline_.first_geometry(second + 1); ++b) {
-        const double bound = gap_bound(balls[a], balls[b]);
-        if (bound < nearest.bound) {
-          nearest = {{timeline_.piece(piece), piece, index, {a, b}}, bound};
-        }
+    for (const auto& [a, b] : timeline_.geometry_pairs(pair)) {
+      const double bound = gap_bound(balls[a], balls[b]);
+      if (bound < nearest.bound) {
+        nearest = {{timeline_.piece(piece), piece, index, {a, b}}, bound};
       }
     }
   }

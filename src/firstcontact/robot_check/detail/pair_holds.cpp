@@ -15,7 +15,7 @@ HeldStretch stretch_from(const RobotTimeline& timeline, std::size_t pair, std::s
   const double margin = timeline.pairs()[pair].margin;
   HeldStretch stretch{.first_piece = piece, .hold = {}, .work = {}};
   StartGap start;
-  for (const auto& geometries : geometries_of(timeline, pair)) {
+  for (const auto& geometries : timeline.geometry_pairs(timeline.pairs()[pair])) {
     const GeometryCandidate candidate{.window = timeline.piece(piece),
                                       .piece = piece,
                                       .pair = pair,
@@ -43,20 +43,6 @@ std::vector<HeldStretch> stretches_of(const RobotTimeline& timeline, std::size_t
 }
 
 }  // namespace
-
-std::vector<std::array<std::size_t, 2>> geometries_of(const RobotTimeline& timeline,
-                                                      std::size_t pair) {
-  const auto [first, second] = timeline.pairs()[pair].members;
-  std::vector<std::array<std::size_t, 2>> all;
-  for (std::size_t a = timeline.first_geometry(first); a < timeline.first_geometry(first + 1);
-       ++a) {
-    for (std::size_t b = timeline.first_geometry(second); b < timeline.first_geometry(second + 1);
-         ++b) {
-      all.push_back({a, b});
-    }
-  }
-  return all;
-}
 
 PairHolds::PairHolds(const RobotTimeline& timeline, const RobotCheckOptions& options,
                      LinkWorkspaces& workspaces)

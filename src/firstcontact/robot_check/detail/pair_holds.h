@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -48,9 +47,5 @@ class PairHolds {
   std::vector<std::vector<HeldStretch>> stretches_;
   std::vector<double> greatest_;
 };
-
-/// Each two geometries of a tested pair.
-[[nodiscard]] std::vector<std::array<std::size_t, 2>> geometries_of(const RobotTimeline& timeline,
-                                                                    std::size_t pair);
 
 }  // namespace firstcontact::detail

@@ -66,10 +66,12 @@ RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
   }
   first_geometry_.push_back(geometries_.size());
   add_pairs();
-  for (const TestedPair& pair : pairs_) {
-    least_margin_ = std::min(least_margin_, pair.margin);
-  }
   find_breaks();
+  for (const TestedPair& pair : pairs_) {
+    if (is_tested(pair)) {
+      least_margin_ = std::min(least_margin_, pair.margin);
+    }
+  }
 }
 
 void RobotTimeline::follow_motions() {
@@ -216,6 +218,14 @@ bool RobotTimeline::is_tested(const TestedPair& pair, std::size_t piece) const {
   return std::none_of(pair.pauses.begin(), pair.pauses.end(), [&](const TimeWindow& pause) {
     return pause.begin <= middle && middle <= pause.end;
   });
+}
+
+bool RobotTimeline::is_tested(const TestedPair& pair) const {
+  bool is_any = pair.pauses.empty();
+  for (std::size_t piece = 0; piece < piece_count() && !is_any; ++piece) {
+    is_any = is_tested(pair, piece);
+  }
+  return is_any;
 }
 
 std::size_t RobotTimeline::Seat::piece(double t) const {

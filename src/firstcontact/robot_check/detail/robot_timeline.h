@@ -38,6 +38,39 @@ struct TestedPair {
   std::vector<TimeWindow> pauses = {};
 };
 
+/// Each geometry of one member with each of another, in order: what `for` runs over.
+class GeometryPairs {
+ public:
+  class Iterator {
+   public:
+    Iterator(const GeometryPairs& pairs, std::size_t a) : pairs_(&pairs), at_{a, pairs.b_} {}
+    [[nodiscard]] const std::array<std::size_t, 2>& operator*() const { return at_; }
+    Iterator& operator++() {
+      if (++at_[1] == pairs_->b_end_) {
+        at_ = {at_[0] + 1, pairs_->b_};
+      }
+      return *this;
+    }
+    [[nodiscard]] bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const GeometryPairs* pairs_;
+    std::array<std::size_t, 2> at_;
+  };
+
+  /// @param a, b  the first geometry of each member; no member is without one
+  GeometryPairs(std::size_t a, std::size_t a_end, std::size_t b, std::size_t b_end)
+      : a_(a), a_end_(a_end), b_(b), b_end_(b_end) {}
+  [[nodiscard]] Iterator begin() const { return {*this, a_}; }
+  [[nodiscard]] Iterator end() const { return {*this, a_end_}; }
+
+ private:
+  std::size_t a_;
+  std::size_t a_end_;
+  std::size_t b_;
+  std::size_t b_end_;
+};
+
 /// X_FS(t) of a geometry over a piece of time, and how well it is followed.
 struct GeometryPath {
   LinkPath X_FS;
@@ -72,12 +105,14 @@ class RobotTimeline {
   [[nodiscard]] const RobotScene& scene() const { return scene_; }
 
   [[nodiscard]] std::span<const BoundedGeometry> geometries() const { return geometries_; }
-  /// The geometries of a member are first_geometry(member), ... below first_geometry(member + 1).
-  [[nodiscard]] std::size_t first_geometry(std::size_t member) const {
-    return first_geometry_[member];
+  /// Of a tested pair: those of the first member with those of the second one.
+  [[nodiscard]] GeometryPairs geometry_pairs(const TestedPair& pair) const {
+    const auto [first, second] = pair.members;
+    return {first_geometry_[first], first_geometry_[first + 1], first_geometry_[second],
+            first_geometry_[second + 1]};
   }
   [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }  ///< In order.
-  /// [m]  Of all pairs; infinite where there are none.
+  /// [m]  Of all pairs that are tested in some piece; infinite where there are none.
   [[nodiscard]] double least_margin() const { return least_margin_; }
 
   /// Whether any threshold depends on time.
@@ -88,6 +123,8 @@ class RobotTimeline {
   [[nodiscard]] TimeWindow piece(std::size_t k) const { return {breaks_[k], breaks_[k + 1]}; }
 
   [[nodiscard]] bool is_tested(const TestedPair& pair, std::size_t piece) const;
+  /// Whether the pair is tested in some piece.
+  [[nodiscard]] bool is_tested(const TestedPair& pair) const;
 
   /// In the world, over the piece around t.
   [[nodiscard]] GeometryPath path(std::size_t geometry, double t) const;
@@ -134,6 +171,7 @@ class RobotTimeline {
   const RobotScene& scene_;
   std::vector<BoundedGeometry> geometries_;
   std::vector<std::vector<Seat>> seats_;  // Of each geometry, in order of time.
+  /// The geometries of a member are first_geometry_[member], ... below first_geometry_[member + 1].
   std::vector<std::size_t> first_geometry_;
   std::vector<TestedPair> pairs_;
   double least_margin_ = std::numeric_limits<double>::infinity();
