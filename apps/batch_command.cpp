@@ -51,7 +51,7 @@ struct Arguments {
   std::string jobs;
   std::string results;
   std::string page;
-  std::size_t threads = 0;  // As many as there are processors.
+  int threads = 0;  // As many as there are processors.
   Shard shard;
   bool resume = false;
   Question question;
@@ -152,7 +152,7 @@ class Batch {
     check_lines(
         arguments_.jobs, [this] { return next_of(arguments_.shard, lines_); },
         [this](const LineAnswer& answer) { take(answer); },
-        {.threads = arguments_.threads,
+        {.threads = static_cast<std::size_t>(arguments_.threads),
          .closest = question.closest,
          .all_pairs = question.all_pairs,
          .all_contacts_in_time = question.all_contacts_in_time,
@@ -273,7 +273,7 @@ void add_batch_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--html", arguments->page,
            "Makes a page that lists the results and plays each");
   command->add_flag("--resume", arguments->resume, "Goes on with the results that are there");
-  add_count(*command, "--threads", arguments->threads, "In place of one for each processor");
+  add_threads(*command, arguments->threads, "Each result");
   command
       ->add_option_function<std::string>(
           "--shard", [arguments](const std::string& text) { arguments->shard = parse_shard(text); },

@@ -167,9 +167,9 @@ class Check {
   }
 
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
-    ++answered_;
     status_ = worse(status_, status_of(answer.result.verdict));
     write_json(result_text(answer, question_.writes_pairs(), source.line));
+    ++answered_;  // Once there is a result to keep.
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
       say(describe(title, answer,
@@ -299,10 +299,7 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
              "[1/s] Also the answer of sampling at this rate");
-  command
-      ->add_option("--threads", question.threads,
-                   "At most so many; 0, the default, for one on each core. The answer is the same")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*command, question.threads, "The answer");
   command->add_flag("--strict", question.strict, "A robot beyond its joint limits is an error");
   add_robot_options(*command, arguments->robot);
   command->footer(kFooter);

@@ -39,4 +39,12 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& 
   return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
 }
 
+CLI::Option* add_threads(CLI::App& command, int& threads, const std::string& same) {
+  return command
+      .add_option("--threads", threads,
+                  "At most so many; 0, the default, for one on each core. " + same + " is the same")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+}
+
 }  // namespace firstcontact::app

@@ -21,4 +21,9 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::optiona
 CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
                        const std::string& description);
 
+/// Adds --threads, which takes 0 to 1024.
+///
+/// @param same  what is the same for any number of them: "The answer"
+CLI::Option* add_threads(CLI::App& command, int& threads, const std::string& same);
+
 }  // namespace firstcontact::app

@@ -24,17 +24,17 @@ std::string quantiles(const TimingHistogram& histogram) {
 std::string wall_text(const WallSessionReport& wall) {
   const RealTimeGrant& granted = wall.granted;
   const auto word = [](bool is) { return is ? "yes" : "no"; };
-  return report_line("real time",
+  return answer_line("real time",
                      fmt::format("force loop SCHED_FIFO {}, contact loop {}; own processors {} "
                                  "and {}; memory locked {}",
                                  word(granted.force_fifo), word(granted.contact_fifo),
                                  word(granted.force_processor), word(granted.contact_processor),
                                  word(granted.locked_memory))) +
-         report_line("tick CPU", quantiles(wall.tick_cpu)) +
-         report_line("tick late", quantiles(wall.tick_delay)) +
-         report_line("empty loop", "late by " + quantiles(wall.empty_delay)) +
-         report_line("cycle", quantiles(wall.cycle_wall)) +
-         report_line("missed",
+         answer_line("tick CPU", quantiles(wall.tick_cpu)) +
+         answer_line("tick late", quantiles(wall.tick_delay)) +
+         answer_line("empty loop", "late by " + quantiles(wall.empty_delay)) +
+         answer_line("cycle", quantiles(wall.cycle_wall)) +
+         answer_line("missed",
                      fmt::format("{} ticks began more than a period late, {} were skipped{}",
                                  wall.late_ticks, wall.skipped_ticks,
                                  wall.unread_ticks == 0
@@ -44,10 +44,6 @@ std::string wall_text(const WallSessionReport& wall) {
 }
 
 }  // namespace
-
-std::string report_line(const char* label, const std::string& value) {
-  return fmt::format("  {:<10} {}\n", label, visible(value));
-}
 
 std::string device_text(const Device& device) {
   const DeviceCapabilities& is = device.capabilities();
@@ -105,26 +101,26 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
                                  is_stopped     ? "stopped early"
                                  : cycles_ == 0 ? "no cycle: nothing was felt"
                                                 : "felt; no tool passed through anything");
-  text += report_line(
+  text += answer_line(
       "ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", ticks_, cycles_));
-  text += report_line("apart", apart_text(clearance_));
-  text += report_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
-  text += report_line("force", fmt::format("at most {:.4g} N and {:.4g} N m{}{}", force_, torque_,
+  text += answer_line("apart", apart_text(clearance_));
+  text += answer_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
+  text += answer_line("force", fmt::format("at most {:.4g} N and {:.4g} N m{}{}", force_, torque_,
                                            undriven.empty() ? "" : "; ", undriven));
   if (has_joints_) {
     text +=
-        report_line("grips", fmt::format("at most {:.4g} J, as work from open to closed", effort_));
+        answer_line("grips", fmt::format("at most {:.4g} J, as work from open to closed", effort_));
   }
   if (faults_ != 0) {
-    text += report_line("at times", fault_words(faults_));
+    text += answer_line("at times", fault_words(faults_));
   }
   if (unfinished_ > 0) {
-    text += report_line(
+    text += answer_line(
         "unfinished",
         fmt::format("{} cycles ended before the tool was where it could be", unfinished_));
   }
   text +=
-      report_line("time lost",
+      answer_line("time lost",
                   time_lost_ > 0.0 ? time_text(time_lost_) + ": bodies waited for a tool" : "none");
   return wall ? text + wall_text(*wall) : text;
 }

@@ -54,7 +54,4 @@ class HapticReport {
 /// Describes a device that a hand moved: its name, its samples, and why it is lost if it is.
 [[nodiscard]] std::string device_text(const Device& device);
 
-/// A line of a report: its label in a column, then its value.
-[[nodiscard]] std::string report_line(const char* label, const std::string& value);
-
 }  // namespace firstcontact::app

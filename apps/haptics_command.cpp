@@ -388,21 +388,21 @@ class HapticsRun {
     say(report_.text(scene, is_stopped_, undriven(), wall_));
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       if (is_live(named_.choices[k])) {
-        say(report_line("device", device_text(*devices_[k])));
+        say(answer_line("device", device_text(*devices_[k])));
       }
     }
     for (const std::string& warning : loaded_.warnings) {
-      say(report_line("warning", warning));
+      say(answer_line("warning", warning));
     }
     if (run_file_) {
-      say(report_line("run", arguments_.run + "; `firstcontact verify` proves it again"));
+      say(answer_line("run", arguments_.run + "; `firstcontact verify` proves it again"));
     }
     if (page_) {
-      say(report_line("page",
+      say(answer_line("page",
                       page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play"));
     }
     if (!arguments_.plot.empty()) {
-      say(report_line("plot", arguments_.plot));
+      say(answer_line("plot", arguments_.plot));
     }
     flush_stdout();
   }
@@ -462,10 +462,10 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   command
       ->add_option(
           "--device", arguments->devices,
-          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; once for each "
-          "tool")
+          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; one for a tool")
       ->required()
       ->expected(1)
+      ->type_name("DEVICE")
       ->take_all();
   CLI::Option* run = add_file(*command, "-o,--output", arguments->run,
                               "Records the way of the tools: JSON Lines, a line a cycle");

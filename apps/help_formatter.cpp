@@ -1,5 +1,7 @@
 #include "help_formatter.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 #include <string>
 
@@ -18,13 +20,29 @@ std::string names_of(const std::set<CLI::Option*>& options) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// What an option takes: "FILE", "N", or the words that it knows, as "stop|blend". Empty for what
+/// has its name alone.
+std::string value_name(const CLI::Option& option) {
+  const std::string type = option.get_type_name();  // With checks: "TEXT:{stop,blend}".
+  const std::size_t colon = type.find(':');
+  std::string name = type.substr(0, colon);
+  if (colon != std::string::npos && type[colon + 1] == '{') {
+    name = type.substr(colon + 2, type.size() - colon - 3);
+    std::ranges::replace(name, ',', '|');
+  } else if (name == "INT" || name == "UINT") {
+    name = "N";
+  }
+  return option.get_positional() && name == "TEXT" ? "" : name;
+}
+
 }  // namespace
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   if (option->get_type_size() == 0) {
     return {};  // A flag.
   }
-  std::string text = option->get_type_name().empty() ? "" : " " + option->get_type_name();
+  const std::string name = value_name(*option);
+  std::string text = name.empty() ? "" : " " + name;
   if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
     text += " ...";
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,6 +14,7 @@
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/robot_files/read_urdf.h>
+#include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "file_text.h"
@@ -142,23 +142,18 @@ bool is_cloud(const std::string& file, const ReadingOptions& options) {
   return false;
 }
 
-bool is_robot(const std::string& file) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  return extension == ".urdf" || extension == ".URDF";
-}
+bool is_robot(const std::string& file) { return detail::file_extension(file) == "urdf"; }
 
 /// Other names are those of no mesh, cloud or robot.
 void require_mesh(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array kMeshes{".obj", ".stl", ".ply", ".off", ".dae", ".glb", ".gltf"};
+  const std::string ending = detail::file_extension(file);
+  constexpr std::array kMeshes{"obj", "stl", "ply", "off", "dae", "glb", "gltf"};
   if (std::ranges::find(kMeshes, ending) == kMeshes.end()) {
     throw ParseError(
         file, fmt::format("expected a mesh (.obj, .stl, .ply, .off, .dae, .glb, .gltf), a cloud "
-                          "(.ply, .pcd, .xyz) or a robot (.urdf), got \"{}\"{}",
-                          ending,
-                          ending == ".json" || ending == ".jsonl"
+                          "(.ply, .pcd, .xyz) or a robot (.urdf), got \"{}{}\"{}",
+                          ending.empty() ? "" : ".", ending,
+                          ending == "json" || ending == "jsonl"
                               ? "; of a scene `firstcontact check --explain` says what is read"
                               : ""));
   }
@@ -225,13 +220,14 @@ void add_info_command(CLI::App& app) {
   command
       ->add_option("--package-root", arguments->package_roots,
                    "Folder that holds packages which a robot names as package://; repeatable")
+      ->type_name("FOLDER")
       ->allow_extra_args(false);
   command->add_flag("--visual-where-missing", arguments->visual_where_missing,
                     "Takes links of robots without collision geometry as they look");
   command->add_flag("--json", arguments->json,
                     "Prints JSON in place of text for people, one line for each file");
   command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, not errors");
+                    "Unknown names in files are warnings, not errors");
   command
       ->add_flag("--always-in-contact", arguments->in_contact,
                  "Prints as SRDF the pairs of links that touch where every coordinate is 0, or its "

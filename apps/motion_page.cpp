@@ -93,6 +93,15 @@ void give_trajectories(const PlannedPath& path, const std::vector<double>& times
   }
 }
 
+void forget_velocities(std::vector<SceneLimits>& limits) {
+  for (SceneLimits& of_robot : limits) {
+    std::erase_if(of_robot.violations, [](const LimitViolation& violation) {
+      return violation.what == JointLimit::velocity;
+    });
+  }
+  std::erase_if(limits, [](const SceneLimits& of_robot) { return of_robot.violations.empty(); });
+}
+
 }  // namespace
 
 Scene scene_in_motion(const PlannedPath& path) {
@@ -139,7 +148,8 @@ Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
 }
 
 void write_motion_page(const std::string& file, const std::string& viewer, Scene scene,
-                       const std::stop_token& stop, const std::function<void(std::string)>& doing) {
+                       bool has_times, const std::stop_token& stop,
+                       const std::function<void(std::string)>& doing) {
   Question question;
   question.closest = true;
   question.gap_curve = true;
@@ -147,9 +157,12 @@ void write_motion_page(const std::string& file, const std::string& viewer, Scene
   question.doing = doing;
   ShapeCache cache;
   ManyBodiesWorkspace workspace;
-  const SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
+  SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
   if (stop.stop_requested()) {
     return;
+  }
+  if (!has_times) {
+    forget_velocities(answer.loaded.limits);
   }
   const std::string result =
       write_result(answer.loaded, answer.result, {.all_pairs = true, .line = {}, .sampling = {}});

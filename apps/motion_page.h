@@ -28,10 +28,12 @@ namespace firstcontact::app {
 
 /// Checks a scene once more and writes the page of the answer, with the gap over time.
 ///
+/// @param has_times  whether times are those of the motion: else no velocity is beyond its limit
 /// @param viewer  the viewer's page
 /// @param stop    ends the check early, without a page
 /// @param doing   called with what is being done
 void write_motion_page(const std::string& file, const std::string& viewer, Scene scene,
-                       const std::stop_token& stop, const std::function<void(std::string)>& doing);
+                       bool has_times, const std::stop_token& stop,
+                       const std::function<void(std::string)>& doing);
 
 }  // namespace firstcontact::app

@@ -19,10 +19,6 @@
 namespace firstcontact::app {
 namespace {
 
-std::string edges_text(std::size_t count) {
-  return fmt::format("{} edge{}", count, count == 1 ? "" : "s");
-}
-
 std::string path_headline(const PlannedPath& path, const PathVerification& found) {
   if (found.verdict == ProofVerdict::refuted) {
     return "refuted";
@@ -31,7 +27,7 @@ std::string path_headline(const PlannedPath& path, const PathVerification& found
     return "not proven";
   }
   const std::string what =
-      path.waypoints.size() == 1 ? "one place, no edge" : edges_text(found.edges);
+      path.waypoints.size() == 1 ? "one place, no edge" : counted(found.edges, "edge");
   return "proven: " + what +
          (found.reaches_goal ? ", to a goal" : ", approximate: it ends before a goal");
 }
@@ -40,7 +36,7 @@ std::string describe_path(const std::string& file, const PlannedPath& path,
                           const PathVerification& found) {
   std::string text = fmt::format("{}: {}\n", visible(file), path_headline(path, found));
   const auto line = [&](const char* label, const std::string& value) {
-    text += fmt::format("  {:<10} {}\n", label, visible(value));
+    text += answer_line(label, value);
   };
   if (!found.problem.empty()) {
     line("problem", found.problem);
@@ -65,7 +61,7 @@ std::string describe_path(const std::string& file, const PlannedPath& path,
                                 kContactPolicyWords.at(static_cast<std::size_t>(one.policy)),
                                 lower_bound_text(one.distance)));
   }
-  line("tested", found.tested == 1 ? "1 pair" : fmt::format("{} pairs", found.tested));
+  line("tested", counted(found.tested, "pair"));
   for (const std::string& warning : found.warnings) {
     line("warning", warning);
   }

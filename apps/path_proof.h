@@ -7,9 +7,11 @@
 #include <string>
 
 #include "exit_status.h"
-#include "result_proof.h"
+#include "proof.h"
 
 namespace firstcontact::app {
+
+class Progress;
 
 /// Proves a planned path again, and prints what was found.
 ///

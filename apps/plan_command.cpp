@@ -168,7 +168,8 @@ class Plan {
         write_file(arguments_.output, text);
       }
       if (!arguments_.page.empty()) {
-        write_motion_page(arguments_.page, viewer_, scene_in_motion(*path), interrupt_.token(),
+        write_motion_page(arguments_.page, viewer_, scene_in_motion(*path), !path->times.empty(),
+                          interrupt_.token(),
                           [this](const std::string& what) { progress_.doing("page: " + what); });
       }
       if (arguments_.json) {
@@ -219,6 +220,10 @@ class Plan {
                        lower_bound_text(one.distance));
   }
 
+  [[nodiscard]] static std::string shortened_text(double cost, std::optional<double> first) {
+    return first && *first != cost ? fmt::format(" ({:.6g} before it was shortened)", *first) : "";
+  }
+
   [[nodiscard]] std::string describe_failure(const ScenePlan& scene, const PlanOptions& options,
                                              const PlanResult& result) const {
     return fmt::format("{}: no path was found in {}{}; most in the way: {}", source_,
@@ -232,7 +237,7 @@ class Plan {
                                      const std::optional<PlannedPath>& path) const {
     std::string text;
     const auto line = [&](const char* label, const std::string& value) {
-      text += fmt::format("  {:<10} {}\n", label, visible(value));
+      text += answer_line(label, value);
     };
     if (!path) {
       text = visible(describe_failure(scene, options, result)) + '\n';
@@ -242,10 +247,7 @@ class Plan {
                                          : "approximate: proven, but it ends before a goal");
       line("path", fmt::format("{}, {}, length {:.6g}{}", counted(path->waypoints.size(), "place"),
                                counted(path->clearances.size(), "edge"), path->cost,
-                               result.statistics.first_cost
-                                   ? fmt::format(" ({:.6g} before it was shortened)",
-                                                 *result.statistics.first_cost)
-                                   : ""));
+                               shortened_text(path->cost, result.statistics.first_cost)));
       if (!path->times.empty()) {
         line("arrives", fmt::format("after {}, and rests until {}", time_text(arrival(*path)),
                                     time_text(path->times.back())));
@@ -265,9 +267,9 @@ class Plan {
       line("in the way", blocking_text(scene, result.statistics));
     }
     const PlanStatistics& counts = result.statistics;
-    line("time", fmt::format("{}; {} edges checked, {} undecided, {} places in trees",
-                             time_text(counts.seconds), counts.edges_checked, counts.undecided,
-                             counts.nodes));
+    line("time", fmt::format("{}; {} checked, {} undecided, {} in trees", time_text(counts.seconds),
+                             counted(counts.edges_checked, "edge"), counts.undecided,
+                             counted(counts.nodes, "place")));
     line("planner",
          fmt::format("{}, seed {}", kPlannerWords.at(static_cast<std::size_t>(options.planner)),
                      options.seed));
@@ -365,12 +367,9 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}));
   command->add_flag("--approximate", arguments->approximate,
                     "Without a path, one that ends as near to a goal as was reached");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "At most so many; 0, the default, for one on each core. The path is the same")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*command, arguments->threads, "The path");
   command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, not errors");
+                    "Unknown names in files are warnings, not errors");
   add_robot_options(*command, arguments->robot, RobotUse::plan);
   command->footer(kPlanFooter);
   command->callback([arguments, &status] {

@@ -59,9 +59,7 @@ class Description {
     text_ += fmt::format(format, std::forward<T>(values)...);
   }
 
-  void line(const char* label, const std::string& value) {
-    print("  {:<10} {}\n", label, visible(value));
-  }
+  void line(const char* label, const std::string& value) { text_ += answer_line(label, value); }
 
   [[nodiscard]] std::string name(std::size_t member) const {
     return visible(member_name(scene_, member));

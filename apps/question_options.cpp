@@ -54,7 +54,7 @@ void add_question_options(CLI::App& command, Question& question) {
   add_number(command, "--deadline", question.deadline, Range::positive,
              "[s] For each scene; then its answer is undecided");
   command.add_flag("--lenient", question.lenient,
-                   "Names in files that nobody knows are warnings, not errors, even where they "
+                   "Unknown names in files are warnings, not errors, even where they "
                    "could hold geometry");
   command
       .add_option_function<std::string>(

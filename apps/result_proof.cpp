@@ -106,9 +106,7 @@ class ResultDescription {
                        at_most(*found_.contact_distance), length_text(found_.tolerance));
   }
 
-  void line(const char* label, const std::string& value) {
-    text_ += fmt::format("  {:<10} {}\n", label, visible(value));
-  }
+  void line(const char* label, const std::string& value) { text_ += answer_line(label, value); }
 
   void problem() {
     if (!found_.problem.empty()) {
@@ -209,20 +207,6 @@ class ResultsProof {
 };
 
 }  // namespace
-
-ExitStatus status_of(ProofVerdict verdict) {
-  switch (verdict) {
-    case ProofVerdict::proven:
-      return ExitStatus::free;
-    case ProofVerdict::refuted:
-      return ExitStatus::contact;
-    case ProofVerdict::broken:
-      return ExitStatus::bad_input;
-    case ProofVerdict::not_proven:
-      break;
-  }
-  return ExitStatus::undecided;
-}
 
 ExitStatus prove_results(const ProofArguments& arguments, const std::string& text,
                          Progress& progress, const std::stop_token& stop) {

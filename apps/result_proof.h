@@ -6,23 +6,12 @@
 #include <stop_token>
 #include <string>
 
-#include <firstcontact/verification/proof_verdict.h>
-
 #include "exit_status.h"
+#include "proof.h"
 
 namespace firstcontact::app {
 
 class Progress;
-
-struct ProofArguments {
-  std::string file;   ///< To be proven.
-  std::string scene;  ///< That the file is to be of; may be empty.
-  bool json = false;
-  bool lenient = false;
-  int threads = 0;
-};
-
-[[nodiscard]] ExitStatus status_of(ProofVerdict verdict);
 
 /// Proves each result of a file again, and prints what was found. The status is the worst.
 ///

@@ -283,7 +283,7 @@ ExitStatus retime_path(const Arguments& arguments) {
     write_file(arguments.output, text);
     if (!arguments.page.empty()) {
       write_motion_page(arguments.page, viewer, scene_in_motion(input, scene.where, retimed.motion),
-                        interrupt.token(),
+                        /*has_times=*/true, interrupt.token(),
                         [&](const std::string& what) { progress.doing("page: " + what); });
     }
     say(report.proven(proof));
@@ -350,10 +350,7 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
   command->add_option("--which", arguments->which, "The robot, in a scene with several")
       ->type_name("NAME");
   command->add_flag("--lenient", arguments->lenient, "Unknown names in files are warnings");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "At most so many; 0, the default, for one on each core. The answer is the same")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*command, arguments->threads, "The answer");
   add_robot_options(*command, arguments->robot, RobotUse::retime);
   command->footer(kFooter);
   command->callback([arguments, &status] {

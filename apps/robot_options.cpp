@@ -83,7 +83,6 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments, RobotUse us
       .add_option("--turning", arguments.turning,
                   "Continuous joints: short, by at most half a turn, or long, as the numbers go. "
                   "Short is the default to a goal, as in MoveIt, long that of --trajectory")
-      ->type_name("long|short")
       ->check(CLI::IsMember(std::vector<std::string>(kTurningWords.begin(), kTurningWords.end())))
       ->group(of_motion);
   command

@@ -219,9 +219,7 @@ class Run {
                        std::string(kWidth - filled, '.'), done, count, simulator_.time());
   }
 
-  static void line(const char* label, const std::string& value) {
-    say(fmt::format("  {:<10} {}\n", label, visible(value)));
-  }
+  static void line(const char* label, const std::string& value) { say(answer_line(label, value)); }
 
   void print(bool is_whole, std::size_t count) const {
     const Scene& scene = simulator_.header().scene;
@@ -364,12 +362,9 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,
              "Seconds of a step, in place of the scene's");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "At most so many; 0, the default, for one on each core. The run is the same")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*command, arguments->threads, "The run");
   command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, not errors");
+                    "Unknown names in files are warnings, not errors");
   CLI::Option* resume =
       command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
           ->needs(output);

@@ -67,6 +67,10 @@ std::string visible(std::string_view text) { return shown(text, /*keep_lines=*/f
 
 std::string visible_lines(std::string_view text) { return shown(text, /*keep_lines=*/true); }
 
+std::string answer_line(std::string_view label, std::string_view value) {
+  return fmt::format("  {:<10} {}\n", label, visible(value));
+}
+
 void say(std::string_view text) {
   const std::string shown_text = visible_lines(text);
   (void)std::fwrite(shown_text.data(), 1, shown_text.size(), stdout);

@@ -16,6 +16,9 @@ namespace firstcontact::app {
 /// The same of every line of a text: line feeds stay.
 [[nodiscard]] std::string visible_lines(std::string_view text);
 
+/// A line of an answer for people: "  label      value", and a line feed.
+[[nodiscard]] std::string answer_line(std::string_view label, std::string_view value);
+
 /// Writes text for people to standard output, visible_lines() of it.
 void say(std::string_view text);
 

@@ -186,9 +186,8 @@ void add_view_command(CLI::App& app) {
            "In place of the page of a run: an animation for other programs, binary glTF")
       ->excludes(output);
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
-  command->add_flag(
-      "--lenient", arguments->lenient,
-      "Names in files that nobody knows are warnings, as in a result with this option");
+  command->add_flag("--lenient", arguments->lenient,
+                    "Unknown names in files are warnings, as in a result with this option");
   command->callback([arguments] { view(*arguments); });
 }
 

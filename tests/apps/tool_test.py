@@ -430,7 +430,7 @@ $""")
         self.assertRegex(result.stdout, r"^run\.jsonl: refuted\n  problem +\"ball\" and \"floor\" come closer than "
                          r"promised\.\n  when +0\.8\d+ s \(step 3\)\n  distance +\d\d.* mm or less\n")
         found = json.loads(self.verify("--json").stdout)
-        self.assertEqual((found["verdict"], found["problem_at"]["step"]), ("closer", 3))
+        self.assertEqual((found["verdict"], found["problem_at"]["step"]), ("refuted", 3))
 
     def test_refuses_a_broken_record(self):
         self.steps[1]["bodies"][0]["pieces"][0][1] = 0.25
@@ -774,6 +774,14 @@ class Robot(ToolTest):
         self.assert_refused(self.run_tool("check", "--trajectory", "x.csv"),
                             "expected --robot ROBOT.urdf beside x.csv")
 
+    def test_says_what_to_do_with_a_file_that_is_no_scene(self):
+        for name, got in [("r.urdf", "a robot; give it as --robot, or in \"robots\" of a scene"),
+                          ("nut.OBJ", 'a mesh; a scene has it as the shape of a body: {"mesh": FILE}'),
+                          ("scan.xyz", 'points; a scene has it as the shape of a body: {"points": FILE}'),
+                          ("t.csv", "a trajectory; give it as --trajectory, beside --robot")]:
+            path = self.file(name, "<robot/>")
+            for command in ("check", "simulate", "plan"):
+                self.assert_refused(self.run_tool(command, path), f"{path}: expected a scene (.json), got {got}")
 
     def test_has_options_that_are_refused_beside_a_scene(self):
         """Where they were ignored, the answer would be of another question."""

@@ -80,7 +80,7 @@ TEST(HapticRun, IsProvenForADeviceThatRushesThroughAPlate) {
   });
   EXPECT_GT(recorded.least_height, 0.004);
   const RunVerification proof = verify_text(recorded.run);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_EQ(proof.steps, 200U);
   EXPECT_GT(proof.least_distance, 0.0);
 }
@@ -101,7 +101,7 @@ TEST(HapticRun, SaysThatItIsOne) {
 TEST(HapticRun, IsProvenWhereSurroundingsMoveAndHaveToWait) {
   const Recorded recorded = record_cycles(kPusher, 200, [](int, std::size_t) { return Pose{}; });
   const RunVerification proof = verify_text(recorded.run);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_EQ(proof.time_lost, 0.0);
   EXPECT_GT(proof.greatest_behind, 0.05);
 }
@@ -148,7 +148,7 @@ TEST(HapticRun, IsRefutedWhereAGodObjectPasses) {
     cycle.clearance = 1e-6;
     text += write_run_step(run.step(cycle));
   }
-  EXPECT_EQ(verify_text(text).verdict, RunVerdict::closer);
+  EXPECT_EQ(verify_text(text).verdict, ProofVerdict::refuted);
 }
 
 TEST(HapticLog, HasAValueForEachColumn) {

@@ -180,7 +180,7 @@ TEST_F(MovingLinks, AreProvenAsTheyAreWritten) {
   const HapticSetup setup = haptic_setup(loaded);
   const std::string text = run_of(loaded, setup);
   const RunVerification proof = verified(text);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_GT(proof.least_distance, 0.0);
   EXPECT_EQ(text, run_of(loaded, setup));  // The same on every run.
 
@@ -195,7 +195,7 @@ TEST_F(MovingLinks, AreProvenAsTheyAreWritten) {
     }
     return step;
   });
-  EXPECT_NE(forged.verdict, RunVerdict::proven);
+  EXPECT_NE(forged.verdict, ProofVerdict::proven);
 }
 
 TEST_F(MovingLinks, IgnoreWhatTheRobotIgnores) {

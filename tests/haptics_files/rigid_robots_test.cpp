@@ -127,7 +127,7 @@ TEST_F(RigidRobots, AreFeltAndProven) {
     std::istringstream stream(text);
     RunReader reader(stream, "run.jsonl");
     const RunVerification proof = verify_run(reader.header(), [&] { return reader.next(); });
-    EXPECT_EQ(proof.verdict, RunVerdict::proven) << is_tool << ": " << proof.problem;
+    EXPECT_EQ(proof.verdict, ProofVerdict::proven) << is_tool << ": " << proof.problem;
   }
 }
 

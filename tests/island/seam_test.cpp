@@ -37,7 +37,7 @@ std::string sliding(const std::string& shape, double height, double yaw, const s
 
 RunBody after(Simulator& simulator, double duration, double step) {
   const auto steps = run(simulator, static_cast<std::size_t>(std::lround(duration / step)));
-  EXPECT_EQ(test::verify(simulator.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(simulator.header(), steps).verdict, ProofVerdict::proven);
   return steps.back().bodies.back();
 }
 

@@ -50,7 +50,7 @@ TEST(Rest, EndsTheMotionOfWhatContactsHold) {
       ASSERT_EQ(body.X_WB.rotation.coeffs(), find(steps[rests], b).X_WB.rotation.coeffs()) << k;
     }
   }
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // What presses is what carried the weight before: the floor bears both blocks.
@@ -126,7 +126,7 @@ TEST(Rest, EndsWhereAScriptPushes) {
   const std::vector<RunStep> steps = run(s, 90);
   EXPECT_TRUE(find(steps[39], 1).rests);
   EXPECT_GE(s.states()[1].X_WB.position.x(), 0.75 - 0.01);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 TEST(Rest, EndsWhereSomethingFallsOnIt) {
@@ -140,7 +140,7 @@ TEST(Rest, EndsWhereSomethingFallsOnIt) {
   ASSERT_LE(rests, 40);
   EXPECT_EQ(find(steps[rests], 2).X_WB.position, find(steps[50], 2).X_WB.position);
   EXPECT_GE(s.states()[2].X_WB.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.1);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // What was carried falls.

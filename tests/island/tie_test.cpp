@@ -315,7 +315,7 @@ TEST(Tie, PendulumOnACableKeepsItsEnergy) {
   EXPECT_LE(off, 1e-3);
   EXPECT_LE(farthest, 1e-7);
   EXPECT_EQ(test::verify(s.header(), {steps.begin(), steps.begin() + 20}).verdict,
-            RunVerdict::proven);
+            ProofVerdict::proven);
 }
 
 // It falls freely until the cable is taut, and goes on along the circle.
@@ -628,7 +628,7 @@ TEST(Tie, ContactsActBesideTies) {
   EXPECT_NEAR(steps.back().linear_momentum.y(), 0.0, 1e-6);
   EXPECT_LE((s.states()[2].X_WB.position - s.states()[1].X_WB.position).norm(), 0.6 + 1e-6);
   EXPECT_NEAR(s.states()[1].X_WB.position.z(), 0.1, 3e-4);
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 void expect_refused(const std::string& bodies, const std::string& ties, const std::string& what) {

@@ -38,7 +38,7 @@ constexpr double kTime = 0.5;   // [s]
 /// [-]  From the right axis, at the end of the run. It is proven, too.
 double error_of(Simulator s, double step, const Vector3d& right) {
   const std::vector<RunStep> steps = run(s, static_cast<std::size_t>(std::lround(kTime / step)));
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << step;
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << step;
   return (steps.back().bodies[0].X_WB.rotation * Vector3d::UnitZ() - right).norm();
 }
 

@@ -28,7 +28,8 @@ def test_pose_maps_points():
     same = fc.Pose([1, 2, 3], rotation_vector=np.array([0, 0, QUARTER]))
     np.testing.assert_allclose(same.quaternion_wxyz, pose.quaternion_wxyz, atol=1e-16)
     np.testing.assert_allclose(fc.Pose.from_matrix(pose.matrix).matrix, pose.matrix, atol=1e-15)
-    assert fc.Pose() == fc.Pose((0, 0, 0), (1, 0, 0, 0))
+    assert fc.Pose() == fc.Pose((0, 0, 0), quaternion_wxyz=(1, 0, 0, 0))
+    assert eval(repr(pose), {"Pose": fc.Pose}) == pose  # pylint: disable=eval-used
     assert fc.Pose() != fc.Pose((0, 0, 1)) and hash(fc.Pose()) == hash(fc.Pose())
 
 
@@ -43,6 +44,12 @@ def test_pose_maps_points():
 def test_pose_refuses(arguments, complaint):
     with pytest.raises((ValueError, TypeError), match=complaint):
         fc.Pose(**arguments)
+
+
+def test_pose_takes_no_quaternion_by_its_place():
+    """It may be meant as xyzw, the order of ROS, SciPy and Bullet."""
+    with pytest.raises(TypeError, match="quaternion_wxyz"):
+        fc.Pose((0, 0, 0), (0, 0, 0, 1))
 
 
 @pytest.mark.parametrize("matrix", [np.eye(3), 2 * np.eye(4), np.diag([1, 1, 1, 2]),

@@ -31,6 +31,27 @@ def test_swapped_bodies_answer_alike(triangle, falling):
     assert swapped.contacts[0].features == result.contacts[0].features[::-1]
 
 
+def test_a_pose_is_a_body_at_rest(triangle, falling):
+    start = fc.Pose((0.1, 0.1, 1))
+    rest = fc.Motion.fixed(start)
+    moving = (triangle, falling)
+    assert fc.distance((triangle, fc.Pose()), (triangle, start)).distance == 1.0
+    assert fc.distance((triangle, fc.Pose()), moving).distance == 1.0
+    for ask in (fc.first_contact, fc.closest_approach):
+        assert pickle.dumps(ask((triangle, start), moving)) == pickle.dumps(ask((triangle, rest), moving))
+    assert fc.check_many([((triangle, start), moving)])[0].verdict == "contact_at_start"
+    with pytest.raises(TypeError, match=r"A: expected a pair \(Shape, Motion\) or \(Shape, Pose\), got"):
+        fc.distance(triangle, (triangle, start))
+
+
+def test_answers_are_no_conditions(triangle, falling):
+    bodies = fc.BodySet()
+    bodies.add(triangle, falling)
+    for answer in (fc.first_contact((triangle, fc.Pose()), (triangle, falling)), fc.first_contact(bodies)):
+        with pytest.raises(TypeError, match="compare its verdict"):
+            bool(answer)
+
+
 def test_workspace_changes_no_answer(triangle, falling):
     workspace = fc.Workspace()
     rest = fc.Motion.fixed()
@@ -72,7 +93,7 @@ def test_options_outside_their_range_are_refused(triangle, falling, options, com
 
 
 def test_wrong_arguments_get_clear_complaints(triangle, falling):
-    with pytest.raises(TypeError, match=r"A: expected a pair \(Shape, Motion\), got <Shape"):
+    with pytest.raises(TypeError, match=r"A: expected a pair \(Shape, Motion\) or \(Shape, Pose\), got <Shape"):
         fc.first_contact(triangle, (triangle, falling))
     with pytest.raises(TypeError, match=r"B: expected a pair \(Shape, Motion\)"):
         fc.first_contact((triangle, falling), (falling, triangle))

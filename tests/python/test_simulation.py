@@ -310,7 +310,7 @@ def test_recorded_run_reads_back_and_is_proven(tmp_path):
     assert not run.is_cut_off
     times = []
     found = fc.verify_run(path, progress=times.append)
-    assert found.verdict == "proven" and found.verdict is fc.RunVerdict.proven
+    assert found.verdict == "proven" and found.verdict is fc.ProofVerdict.proven
     assert (found.problem, found.problem_at, found.is_cut_off) == ("", None, False)
     assert found.steps == 50 and found.time == pytest.approx(0.5) and times == sorted(times)
     assert 0 < found.least_distance <= found.closest.distance < 1e-2

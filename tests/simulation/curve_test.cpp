@@ -79,7 +79,7 @@ Kept kept_energy(Simulator simulator, std::size_t steps) {
     kept.worst =
         std::max(kept.worst, std::abs(step.kinetic_energy + step.potential_energy - first));
   }
-  kept.is_proven = verify(simulator.header(), made).verdict == RunVerdict::proven;
+  kept.is_proven = verify(simulator.header(), made).verdict == ProofVerdict::proven;
   return kept;
 }
 

@@ -43,7 +43,7 @@ inline Drift drift(Simulator& simulator, double duration) {
     drift.moved = std::max(drift.moved, way.norm());
     drift.turned = std::max(drift.turned, to.rotation.angularDistance(from.rotation));
   }
-  EXPECT_EQ(verify(header, steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(header, steps).verdict, ProofVerdict::proven);
   return drift;
 }
 

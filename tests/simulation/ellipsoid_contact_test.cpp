@@ -289,7 +289,7 @@ TEST(Ellipsoids, RollOnWithoutResistance) {
   const double begin = steps[49].bodies[0].linear_velocity.y();
   EXPECT_NEAR(steps.back().bodies[0].linear_velocity.y(), begin, 1e-4 * begin);
   const RunVerification proof = test::verify(s.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(Ellipsoids, ThatSpinGainNoEnergy) {
       EXPECT_LE(energy, least + 2e-3) << spin << " " << step.time;
       least = std::min(least, energy);
     }
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << spin;
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << spin;
   }
 }
 
@@ -136,7 +136,7 @@ Energies energies_of(const std::vector<double>& radii, double lean, double step,
       test::run(s, static_cast<std::size_t>(std::lround(0.7 / step)));
   const auto past_the_first_flat_side = steps.begin() + std::lround(0.2 / step);
   EXPECT_EQ(test::verify(s.header(), {steps.begin(), past_the_first_flat_side}).verdict,
-            RunVerdict::proven);
+            ProofVerdict::proven);
   const auto energy_of = [](const RunStep& at) { return at.kinetic_energy + at.potential_energy; };
   Energies found{.begin = energy_of(steps[0]), .end = energy_of(steps.back())};
   double least = found.begin;

@@ -109,7 +109,7 @@ TEST(Jam, AChainPulledTautLosesTimeAndIsProven) {
     EXPECT_GT(lost, 0.0);
     EXPECT_LT(steps.back().time, taut);
     EXPECT_LE(farthest_at_once(steps), 1.1 * kContactDistance);
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << chain.around;
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << chain.around;
   }
 }
 

@@ -64,7 +64,7 @@ class RobotContact : public testing::Test {
     Simulator s(load_scene(parse_scene(text, "test.json"), cache));
     std::vector<RunStep> steps =
         test::run(s, static_cast<std::size_t>(std::lround(duration / step)));
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << step;
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << step;
     return steps;
   }
 

@@ -436,7 +436,7 @@ TEST_F(RobotLaws, KeepMomentaWhereARobotPressesOnItself) {
     for (const RunStep& step : steps) {
       ASSERT_EQ(step.time_lost, 0.0) << motors << step.index;
     }
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << motors;
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << motors;
   }
 }
 
@@ -463,7 +463,7 @@ TEST_F(RobotLaws, CatchUpInAStepWhatJamsKeptFromMotors) {
     ASSERT_LE(step.kinetic_energy, 5.0) << step.index;
     ASSERT_EQ(step.time_lost, 0.0) << step.index;
   }
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 TEST_F(RobotLaws, KeepMomentaWhereFrictionHoldsARobotAgainstItself) {
@@ -475,7 +475,7 @@ TEST_F(RobotLaws, KeepMomentaWhereFrictionHoldsARobotAgainstItself) {
                        R"("gravity": [0, 0, 0], "step": )" + number_text(step));
     const auto steps = test::run(s, static_cast<std::size_t>(std::round(3.0 / step)));
     expect_same_momenta(steps, steps[0].linear_momentum, number_text(step));
-    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
   }
 }
 
@@ -534,7 +534,7 @@ TEST_F(RobotLaws, NeedNoGeometry) {
         {"l1": {"torque": 0.1}}, "angular_velocity": [0.3, 0.2, 0.4]})",
                        R"("gravity": [0, 0, 0], "step": 0.01)");
     runs.push_back(test::run(s, 50));
-    EXPECT_EQ(test::verify(s.header(), runs.back()).verdict, RunVerdict::proven) << has_geometry;
+    EXPECT_EQ(test::verify(s.header(), runs.back()).verdict, ProofVerdict::proven) << has_geometry;
   }
   EXPECT_EQ(runs[0].back().robots[0].positions, runs[1].back().robots[0].positions);
   EXPECT_EQ(runs[0].back().robots[0].velocities, runs[1].back().robots[0].velocities);

@@ -51,7 +51,7 @@ TEST(Script, BlowWithinAStepIsFelt) {
     }
   }
   const RunVerification proof = test::verify(simulator.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_LE(proof.scripted_deviation, kDistance);
   EXPECT_EQ(proof.time_lost, 0.0);
 }
@@ -140,7 +140,7 @@ TEST(Script, CirclesAreFollowed) {
   const std::vector<RunStep> steps = test::run(simulator, 2);
   EXPECT_FALSE(steps[0].impacts.empty());
   const RunVerification proof = test::verify(simulator.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_LE(proof.scripted_deviation, kDistance);
 }
 
@@ -155,7 +155,7 @@ TEST(Script, CrushedStepsAreProvenToo) {
       laws());
   const std::vector<RunStep> steps = test::run(simulator, 10);
   const RunVerification proof = test::verify(simulator.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_LE(proof.scripted_deviation, kDistance);
   EXPECT_GT(proof.time_lost, 0.0);
 }

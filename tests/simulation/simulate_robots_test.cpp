@@ -138,7 +138,7 @@ TEST_F(SimulateRobots, APendulumKeepsItsEnergyAndItsLinksTogether) {
     ASSERT_LE((step.bodies[0].X_WB.position - centre).norm(), 1e-12) << step.index;
     ASSERT_NEAR(step.bodies[0].angular_velocity.y(), step.robots[0].velocities[0], 1e-12);
   }
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 TEST_F(SimulateRobots, APendulumStopsAtAWallOrBouncesBack) {
@@ -148,7 +148,7 @@ TEST_F(SimulateRobots, APendulumStopsAtAWallOrBouncesBack) {
         scene(kPendulum, R"("state": {"hinge": -1.2}, "dynamics": {})", wall,
               R"("step": 0.005, "friction": 0, "restitution": )" + std::to_string(restitution)));
     const auto steps = run(s, 400);
-    EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+    EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
     for (const RunStep& step : steps) {
       ASSERT_EQ(step.time_lost, 0.0);
       ASSERT_LE(step.robots[0].positions[0], 0.0);
@@ -365,7 +365,7 @@ TEST_F(SimulateRobots, LimitsDoNotGiveWayToAPress) {
     }
     EXPECT_GT(std::abs(steps.back().robots[0].positions[0]), 0.099);
     EXPECT_GT(lost, 0.1);
-    EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+    EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
   }
 }
 
@@ -401,7 +401,7 @@ TEST_F(SimulateRobots, AllLinksOfARobotWaitTogether) {
   }
   EXPECT_GT(steps.back().bodies.back().behind, 0.3);  // It came to the cube after 0.38 s.
   const RunVerification proof = verify(s.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
 }
 
 TEST_F(SimulateRobots, LimitsStopAndFrictionHolds) {
@@ -453,7 +453,7 @@ TEST_F(SimulateRobots, AGripperLiftsACube) {
   EXPECT_NEAR(cube.X_WB.position.z(), -0.12 + 0.2, 3e-3);
   EXPECT_LE(steps.back().residual, 1e-3);
   const RunVerification verified = verify(s.header(), steps);
-  EXPECT_EQ(verified.verdict, RunVerdict::proven) << verified.problem;
+  EXPECT_EQ(verified.verdict, ProofVerdict::proven) << verified.problem;
   EXPECT_EQ(verified.time_lost, 0.0);
 }
 
@@ -629,7 +629,7 @@ TEST_F(SimulateRobots, AnArmThatIsToldWhereToGoPushesWhatIsInItsWay) {
   const auto steps = run(s, 200);
   EXPECT_GT(steps.back().bodies.front().X_WB.position.x(), 0.2);
   const RunVerification verified = verify(s.header(), steps);
-  EXPECT_EQ(verified.verdict, RunVerdict::proven) << verified.problem;
+  EXPECT_EQ(verified.verdict, ProofVerdict::proven) << verified.problem;
 }
 
 // The sagitta of the arc, which docs/simulation.md promises: no more, and not much less.

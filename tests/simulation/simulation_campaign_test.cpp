@@ -298,7 +298,7 @@ class Campaign {
     }
     lost_time_ += lost;
     const RunVerification proof = verify(s.header(), steps);
-    EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+    EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   }
 
   void print(std::uint64_t scenes) const {

@@ -47,7 +47,7 @@ TEST(Simulator, HeapComesToRestProvenApart) {
     ASSERT_LE(total_energy(steps[k]), total_energy(steps[k - 1]) + lift) << k;
   }
   EXPECT_LE(steps.back().kinetic_energy, 1e-2);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // So many that the laws are met in part only, and plans are made anew around what changed: never
@@ -76,7 +76,7 @@ TEST(Simulator, FallingHeapOfManyLosesEnergyProvenApart) {
     EXPECT_LE(total_energy(steps[k]), total_energy(steps[k - 1]) + lift) << k;
   }
   EXPECT_GT(most, 150u);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // Half over each other in rows, sides flush, so that features change with every rounding: whatever
@@ -118,7 +118,7 @@ TEST(Simulator, WallRestsOnTheCornersOfItsBricks) {
       EXPECT_NEAR(extent.sizes().y(), 0.1, 1e-3);
     }
   }
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // Nothing can yield: time is lost, and nothing else.
@@ -138,7 +138,7 @@ TEST(Simulator, CrushedBodyStopsTime) {
   }
   EXPECT_GT(lost, 0.05);
   EXPECT_NEAR(steps.back().time, 0.4 - lost, 1e-12);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 }  // namespace

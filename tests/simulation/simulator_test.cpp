@@ -285,7 +285,7 @@ TEST(Simulator, NothingTunnelsThroughAThinPlate) {
                     R"("step": 0.016666666666666666, "gravity": [0, 0, 0])");
       const auto steps = run(s, 3);
       EXPECT_LT(steps.back().bodies[0].X_WB.position.x(), 0.0) << speed << " " << spin;
-      EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven) << speed << " " << spin;
+      EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven) << speed << " " << spin;
     }
   }
 }
@@ -315,7 +315,7 @@ TEST(Simulator, ScriptedBodiesPushOthers) {
   const auto steps = run(s, 100);
   EXPECT_GT(steps.back().bodies[0].X_WB.position.x(), 0.7);
   EXPECT_NEAR(steps.back().bodies[0].linear_velocity.x(), 1.0, 1e-6);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 void expect_no_lost_time(const std::string& scene, int steps) {
@@ -328,7 +328,7 @@ void expect_no_lost_time(const std::string& scene, int steps) {
     lost += step.time_lost;
   }
   EXPECT_EQ(lost, 0.0);
-  EXPECT_EQ(verify(s.header(), found).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), found).verdict, ProofVerdict::proven);
 }
 
 // A soup spins so fast that its corners dip below what is linear in the rest of a step: each impact
@@ -360,7 +360,7 @@ TEST(Simulator, PushesApartHeedBodiesThatCameAfterThem) {
   const double turned = 2.0 * std::asin(steps.back().bodies[0].X_WB.rotation.vec().norm());
   EXPECT_GT(turned, 1.0e-3);
   EXPECT_LT(turned, 2.0e-3);
-  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 // --- The record --------------------------------------------------------------------------------
@@ -459,7 +459,7 @@ TEST(Simulator, SaysWhichContactDistancesItTakes) {
     return std::string(R"("contact_distance": )") + distance;
   };
   EXPECT_EQ(refusal(bodies, settings("1e3")),
-            "simulation.contact_distance: 1e+03 m is larger than a body: \"a\", the smallest free "
+            "simulation.contact_distance: 1000 m is larger than a body: \"a\", the smallest free "
             "body, has a radius of 0.1 m; without this key it is 0.0001 m");
   for (const char* distance : {"1e-20", "1e-13"}) {
     EXPECT_NE(refusal(bodies, settings(distance)).find("too small to be proven beside coordinates"),

@@ -109,7 +109,7 @@ TEST(SteeredSimulation, RunOfAForcedCubeIsProven) {
     steps.push_back(s.step().value());
   }
   const RunVerification found = verify(s.header(), steps);
-  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+  EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
 }
 
 TEST(SteeredSimulation, GravityAndSurfacesChange) {

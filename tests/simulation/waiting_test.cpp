@@ -74,7 +74,7 @@ TEST(Waiting, APressWaitsAndOpensWhenItsScriptDoes) {
   EXPECT_NEAR(moved(steps[99], kLeft).X_WB.position.x(), -0.15, 3.0 * kApart);
   EXPECT_LE(moved(steps[199], kLeft).behind, 0.01 + 1e-9);  // A step, as it looks back so far.
   const RunVerification proof = test::verify(s.header(), steps);
-  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_NEAR(proof.greatest_behind, 0.5, 0.04);
 }
 
@@ -104,7 +104,7 @@ TEST(Waiting, APressThatClosesALittleTooFarOpens) {
     EXPECT_LE(moved(steps.back(), kLeft).X_WB.position.x(), -0.29) << too_deep;
     EXPECT_LE(moved(steps.back(), kLeft).behind, 0.01) << too_deep;
     const RunVerification proof = test::verify(s.header(), steps);
-    EXPECT_EQ(proof.verdict, RunVerdict::proven) << too_deep << ' ' << proof.problem;
+    EXPECT_EQ(proof.verdict, ProofVerdict::proven) << too_deep << ' ' << proof.problem;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Waiting, WhatMovesAlongAContactGoesOn) {
   EXPECT_EQ(moved(steps.back(), 2).behind, 0.0);  // Its script has stood at its end for long.
   EXPECT_NEAR(moved(steps.back(), 2).X_WB.position.x(), 0.0,
               1e-6);  // The cube went out of its way.
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 TEST(Waiting, WithoutItTimeIsLostAtLittleWork) {
@@ -147,7 +147,7 @@ TEST(Waiting, WithoutItTimeIsLostAtLittleWork) {
     EXPECT_LE(steps[k].events, 1u);
   }
   EXPECT_EQ(moved(steps.back(), kLeft).behind, 0.0);
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
 TEST(Waiting, ARunThatWaitsIsResumedBitForBit) {
@@ -185,7 +185,7 @@ TEST(Waiting, WhatTurnsGoesOnWhereItStoodStill) {
   const double behind = moved(steps.back(), kBeam).behind;
   ASSERT_GT(behind, 0.05);
   EXPECT_EQ(moved(steps.back(), kBeam).angular_velocity.norm(), 0.0);
-  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);
   s.set_state(2, {.X_WB = {{5.0, 5.0, 0.0}, Eigen::Quaterniond::Identity()}});
   steps = run(s, 10);
   for (const RunStep& step : steps) {

@@ -53,7 +53,7 @@ std::vector<WordTable> word_tables() {
       {"JointType", kJointTypeWords, {}, {"viewer/src/data/robot_data.ts"}},
       {"JointLimit", kJointLimitWords, {kResultSchema}},
       {"Turning", kTurningWords, {kSceneSchema, kResultSchema}},
-      {"RunVerdict", kRunVerdictWords},
+      {"ProofVerdict", kProofVerdictWords},
       {"RobotSurface", kRobotSurfaceWords, {kSceneSchema}, {}, false},
       {"ContactPolicy", kContactPolicyWords, {kSceneSchema, kPathSchema}, {}, false},
       {"PathEnd", kPathEndWords, {kSceneSchema, kPathSchema}, {}, false},
@@ -129,7 +129,8 @@ TEST(EnumerationWords, BelongToTheirEnumerators) {
   EXPECT_STREQ(kJointLimitWords[static_cast<std::size_t>(JointLimit::velocity)], "velocity");
   EXPECT_STREQ(kWhyUntestedWords[static_cast<std::size_t>(WhyUntested::both_scripted)],
                "both_scripted");
-  EXPECT_STREQ(kRunVerdictWords[static_cast<std::size_t>(RunVerdict::not_proven)], "not_proven");
+  EXPECT_STREQ(kProofVerdictWords[static_cast<std::size_t>(ProofVerdict::not_proven)],
+               "not_proven");
   EXPECT_STREQ(kRobotSurfaceWords[static_cast<std::size_t>(RobotSurface::collision_or_visual)],
                "collision_or_visual");
   EXPECT_STREQ(to_string(JointType::ball), "ball");

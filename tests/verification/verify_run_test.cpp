@@ -51,7 +51,7 @@ RecordedRun fly_by(double clearance) {
 
 TEST(VerifyRun, ProvesWhatWasPromised) {
   const RunVerification proven = fly_by(0.1).verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
   EXPECT_EQ(proven.steps, 2u);
   EXPECT_EQ(proven.time, 1.5);
   EXPECT_TRUE(proven.problem.empty());
@@ -59,7 +59,7 @@ TEST(VerifyRun, ProvesWhatWasPromised) {
 
 TEST(VerifyRun, FindsTheLeastDistance) {
   const RunVerification proven = fly_by(0.0).verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven);
   EXPECT_LE(proven.least_distance, 0.1);
   EXPECT_GE(proven.least_distance, 0.0949);
   ASSERT_TRUE(proven.closest);
@@ -72,7 +72,7 @@ TEST(VerifyRun, FindsTheLeastDistance) {
 
 TEST(VerifyRun, RefutesWhatWasNotKept) {
   const RunVerification refuted = fly_by(0.10001).verify();
-  EXPECT_EQ(refuted.verdict, RunVerdict::closer);
+  EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
   ASSERT_TRUE(refuted.problem_at);
   EXPECT_EQ(refuted.problem_at->step, 2u);
   EXPECT_NEAR(refuted.problem_at->time, 1.0, 0.01);
@@ -89,10 +89,10 @@ TEST(VerifyRun, FindsWhatTunnels) {
                 {{.lasts = 1.0 / 60.0,
                   .velocity = {0.0, 0.0, -speed},
                   .angular_velocity = {spin, 0.5 * spin, 0.0}}}}});
-      EXPECT_EQ(run.verify().verdict == RunVerdict::proven, false) << speed << " " << spin;
+      EXPECT_EQ(run.verify().verdict == ProofVerdict::proven, false) << speed << " " << spin;
       run.steps[0].clearance = 1e-6;
       const RunVerification refuted = run.verify();
-      EXPECT_EQ(refuted.verdict, RunVerdict::closer) << speed << " " << spin;
+      EXPECT_EQ(refuted.verdict, ProofVerdict::refuted) << speed << " " << spin;
     }
   }
 }
@@ -107,7 +107,7 @@ TEST(VerifyRun, ProvesFastMotions) {
               .angular_velocity = {1000.0, 500.0, 0.0}}}}},
           0.01);
   const RunVerification proven = run.verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
   // The corner's reach is 0.00866 m, which the spin may or may not bring to the edge.
   EXPECT_GE(proven.least_distance, 0.0107);
   EXPECT_LE(proven.least_distance, 0.015);
@@ -127,14 +127,14 @@ TEST(VerifyRun, ProvesBodiesThatRestSlideSpinAndRoll) {
       run.add({{0, {motion}}}, 0.99999e-4);
     }
     const RunVerification proven = run.verify();
-    EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+    EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
     EXPECT_NEAR(proven.least_distance, 1e-4, 5.1e-6);
     EXPECT_GT(proven.least_distance, 0.0);
   }
   RecordedRun rolling(scene(sphere(0.5, "[0, 0, 0.5001]"), floor));
   rolling.add({{0, {{.lasts = 0.1, .velocity = {1.0, 0.0, 0.0}, .angular_velocity = {0, 2, 0}}}}},
               0.99999e-4);
-  EXPECT_EQ(rolling.verify().verdict, RunVerdict::proven);
+  EXPECT_EQ(rolling.verify().verdict, ProofVerdict::proven);
 }
 
 // A body that falls to 10 micrometres and leaves again, in one step of two pieces.
@@ -146,7 +146,7 @@ TEST(VerifyRun, ProvesImpacts) {
              {.lasts = 0.1 - fall, .velocity = {0.3, 0.0, 0.5}}}}},
           0.99999e-5);
   const RunVerification proven = run.verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
   EXPECT_NEAR(proven.least_distance, 1e-5, 5.1e-7);
 }
 
@@ -154,7 +154,7 @@ TEST(VerifyRun, KeepsItsPrecisionFarFromTheOrigin) {
   RecordedRun run(scene(box("[1, 1, 1]", "[65536, 65536, 0.5001]"),
                         box("[20, 20, 0.1]", "[65536, 65536, -0.05]")));
   run.add({{0, {{.lasts = 0.25, .velocity = {1.0, 0.0, 0.0}}}}}, 0.99999e-4);
-  EXPECT_EQ(run.verify().verdict, RunVerdict::proven);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::proven);
 }
 
 // Of edges that pass each other in a gap far shorter than the way that they go.
@@ -166,7 +166,7 @@ TEST(VerifyRun, ProvesEdgesThatPassClosely) {
      "pose": {"position": [0, 0, 0], "rotation_vector": [0, 0.78539816339744831, 0]}}]})");
   run.add({{0, {{.lasts = 1.0, .velocity = {2.0, 0.1, 0.0}}}}}, 0.99e-4);
   const RunVerification proven = run.verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
   EXPECT_NEAR(proven.least_distance, 1e-4, 6e-6);
 }
 
@@ -244,9 +244,9 @@ TEST(VerifyRun, AgreesWithManySamples) {
     const double sampled = sampled_distance(run);
     if (sampled == 0.0) {
       ++met;
-      EXPECT_NE(run.verify().verdict, RunVerdict::proven) << n;
+      EXPECT_NE(run.verify().verdict, ProofVerdict::proven) << n;
       run.steps[0].clearance = 1e-6;
-      EXPECT_EQ(run.verify().verdict, RunVerdict::closer) << n;
+      EXPECT_EQ(run.verify().verdict, ProofVerdict::refuted) << n;
       continue;
     }
     if (sampled < 0.01) {
@@ -254,14 +254,14 @@ TEST(VerifyRun, AgreesWithManySamples) {
     }
     ++apart;
     const RunVerification proven = run.verify();
-    ASSERT_EQ(proven.verdict, RunVerdict::proven) << n << proven.problem;
+    ASSERT_EQ(proven.verdict, ProofVerdict::proven) << n << proven.problem;
     EXPECT_LE(proven.least_distance, sampled) << n;
     EXPECT_LE(proven.closest->distance, 1.06 * sampled) << n;
     EXPECT_GE(proven.least_distance, 0.94 * proven.closest->distance) << n;
     run.steps[0].clearance = 0.9999 * proven.least_distance;
-    EXPECT_EQ(run.verify().verdict, RunVerdict::proven) << n;
+    EXPECT_EQ(run.verify().verdict, ProofVerdict::proven) << n;
     run.steps[0].clearance = 1.0001 * sampled;
-    EXPECT_EQ(run.verify().verdict, RunVerdict::closer) << n;
+    EXPECT_EQ(run.verify().verdict, ProofVerdict::refuted) << n;
   }
   EXPECT_GT(apart, test::rounds(15, 4));
   EXPECT_GT(met, test::rounds(10, 2));
@@ -273,10 +273,10 @@ TEST(VerifyRun, SeesTheThicknessOfShapes) {
   RecordedRun run(scene(thick + "1]}", thick + "0]}"));
   run.add({{0, {{.lasts = 1.0, .velocity = {0.0, 0.0, -0.5}}}}}, 0.09999);
   const RunVerification proven = run.verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven);
   EXPECT_NEAR(proven.least_distance, 0.1, 5.1e-3);
   run.add({{0, {{.lasts = 1.0, .velocity = {0.0, 0.0, -0.11}}}}}, 1e-6);
-  EXPECT_EQ(run.verify().verdict, RunVerdict::closer);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::refuted);
 }
 
 TEST(VerifyRun, RefusesBodiesInsideOfSolidsAtTheStart) {
@@ -284,7 +284,7 @@ TEST(VerifyRun, RefusesBodiesInsideOfSolidsAtTheStart) {
   RecordedRun inside(scene(small, box("[1, 1, 1]", "[0, 0, 0]")));
   inside.add({{0, {{.lasts = 0.1}}}}, 0.1);
   const RunVerification refuted = inside.verify();
-  EXPECT_EQ(refuted.verdict, RunVerdict::closer);
+  EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
   EXPECT_EQ(refuted.problem, "\"mover\" and \"other\" are inside each other at the start.");
 
   // A surface has no inside.
@@ -292,10 +292,10 @@ TEST(VerifyRun, RefusesBodiesInsideOfSolidsAtTheStart) {
     [-3, -3, 9]], "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])";
   RecordedRun in_shell(scene(small, shell + "}"));
   in_shell.add({{0, {{.lasts = 0.1}}}}, 0.1);
-  EXPECT_EQ(in_shell.verify().verdict, RunVerdict::proven);
+  EXPECT_EQ(in_shell.verify().verdict, ProofVerdict::proven);
   RecordedRun in_solid(scene(small, shell + R"(, "solid": true})"));
   in_solid.add({{0, {{.lasts = 0.1}}}}, 0.1);
-  EXPECT_EQ(in_solid.verify().verdict, RunVerdict::closer);
+  EXPECT_EQ(in_solid.verify().verdict, ProofVerdict::refuted);
 }
 
 TEST(VerifyRun, LeavesIgnoredPairsAlone) {
@@ -303,7 +303,7 @@ TEST(VerifyRun, LeavesIgnoredPairsAlone) {
                         R"(, "pairs": {"ignore": [["mover", "other"]]})"));
   run.add({{0, {{.lasts = 0.1, .velocity = {1.0, 0.0, 0.0}}}}}, 0.1);
   const RunVerification proven = run.verify();
-  EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
   EXPECT_EQ(proven.least_distance, std::numeric_limits<double>::infinity());
 }
 
@@ -313,9 +313,9 @@ TEST(VerifyRun, LeavesPairsWithoutAFreeBodyAlone) {
     {"type": "constant_velocity", "from": {"position": [0, 0, 1]}, "translation": [0, 0, -1]})";
   RecordedRun run(scene(scripted, box("[1, 1, 1]", "[0, 0, 0]")), {});
   run.add({{0, {{.lasts = 1.0, .velocity = {0.0, 0.0, -1.0}}}}}, 1e-6);
-  EXPECT_EQ(run.verify().verdict, RunVerdict::proven);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::proven);
   run.header.scene.bodies[1].free.emplace();
-  EXPECT_EQ(run.verify().verdict, RunVerdict::closer);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::refuted);
 }
 
 TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
@@ -326,15 +326,15 @@ TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
     run.add({{0, {{.lasts = 0.5, .velocity = {speed, 0.0, 0.0}}}}}, 0.39);
     const RunVerification found = run.verify();
     if (speed < 1.0001) {
-      EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+      EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
       EXPECT_NEAR(found.scripted_deviation, 0.5 * (speed - 1.0), 1e-14);
     } else {
-      EXPECT_EQ(found.verdict, RunVerdict::broken);
+      EXPECT_EQ(found.verdict, ProofVerdict::broken);
       EXPECT_NE(found.problem.find("from where its motion in the scene puts it"),
                 std::string::npos);
       // Nor may a step that ended early.
       run.steps[0].time_lost = 0.1;
-      EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
+      EXPECT_EQ(run.verify().verdict, ProofVerdict::broken);
     }
   }
 }
@@ -354,25 +354,25 @@ TEST(VerifyRun, ComparesScriptedBodiesThatWaitedWithTheirScript) {
     return run.verify();
   };
   const RunVerification found = verify({0.0, 0.25, 0.25}, 1.0);
-  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+  EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
   EXPECT_EQ(found.greatest_behind, 0.25);
   EXPECT_LE(found.scripted_deviation, 1e-12);
   // A script that came back to it, or on which it hurried.
-  EXPECT_EQ(verify({0.0, 0.25, 0.125}, 1.5).verdict, RunVerdict::proven);
+  EXPECT_EQ(verify({0.0, 0.25, 0.125}, 1.5).verdict, ProofVerdict::proven);
   // It is elsewhere, or cannot be.
-  EXPECT_EQ(verify({0.0, 0.25, 0.25}, 1.1).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, 0.2, 0.2}, 1.0).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, 0.25, 0.0}, 1.0).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, 0.0, 0.0}, 1.0).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, 1.0, 1.0}, 1.0).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, -0.25, -0.25}, 1.0).verdict, RunVerdict::broken);
-  EXPECT_EQ(verify({0.0, kNaN, kNaN}, 1.0).verdict, RunVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.25, 0.25}, 1.1).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.2, 0.2}, 1.0).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.25, 0.0}, 1.0).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, 0.0, 0.0}, 1.0).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, 1.0, 1.0}, 1.0).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, -0.25, -0.25}, 1.0).verdict, ProofVerdict::broken);
+  EXPECT_EQ(verify({0.0, kNaN, kNaN}, 1.0).verdict, ProofVerdict::broken);
 }
 
 TEST(VerifyRun, KnowsNoScriptOfFreeBodies) {
   RecordedRun run = fly_by(0.1);
   run.steps[0].bodies[0].behind = 0.1;
-  EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::broken);
 }
 
 // The piece rests while the script goes 0.3 m away and comes back.
@@ -383,7 +383,7 @@ TEST(VerifyRun, ComparesScriptedBodiesWithTheSceneWithinSteps) {
   RecordedRun run(scene(scripted, box("[1, 1, 1]", "[0, 0, 0]")), {});
   run.add({{0, {{.lasts = 0.5, .velocity = {0.0, 0.0, 0.0}}}}}, 0.39);
   const RunVerification found = run.verify();
-  EXPECT_EQ(found.verdict, RunVerdict::broken);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
   EXPECT_NE(found.problem.find("is up to 0.3 m from where its motion"), std::string::npos)
       << found.problem;
 }
@@ -399,9 +399,9 @@ TEST(VerifyRun, TellsHowFarAnArcIsFromItsChord) {
               .velocity = {std::cos(0.1) - 1.0, std::sin(0.1), 0.0},
               .angular_velocity = {0.0, 0.0, 0.1}}}}},
           1.3);
-  EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::broken);
   const RunVerification found = run.verify({.scripted_tolerance = 2e-3});
-  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+  EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
   EXPECT_GE(found.scripted_deviation, 1.0 - std::cos(0.05));
   EXPECT_LE(found.scripted_deviation, 1.01 * (1.0 - std::cos(0.05)));
 }
@@ -415,7 +415,7 @@ TEST(VerifyRun, ProvesBodiesThatSpinHundredsOfTimesInAStep) {
     run.add({{0, {{.lasts = 1.0, .angular_velocity = {400.0, 3000.0, -900.0}}}}}, 1e-6);
   }
   const RunVerification found = run.verify();
-  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+  EXPECT_EQ(found.verdict, ProofVerdict::proven) << found.problem;
 }
 
 TEST(VerifyRun, KnowsStepsThatLastNoTime) {
@@ -426,9 +426,9 @@ TEST(VerifyRun, KnowsStepsThatLastNoTime) {
   stuck.bodies[0].pieces = {{0.0, stuck.bodies[0].X_WB}};
   run.steps[1].index = 3;
   run.steps.insert(run.steps.begin() + 1, stuck);
-  EXPECT_EQ(run.verify().verdict, RunVerdict::proven) << run.verify().problem;
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::proven) << run.verify().problem;
   run.steps[1].bodies[0].X_WB.position.z() += 1e-6;
-  EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
+  EXPECT_EQ(run.verify().verdict, ProofVerdict::broken);
 }
 
 /// A crate that slides over a floor at 0.1 mm, among others that do, for some steps of two pieces.
@@ -450,7 +450,7 @@ RecordedRun crates() {
 TEST(VerifyRun, GivesTheSameAnswerOnEveryNumberOfThreads) {
   const RunVerification one = crates().verify({.threads = 1});
   const RunVerification two = crates().verify({.threads = 2});
-  EXPECT_EQ(one.verdict, RunVerdict::proven) << one.problem;
+  EXPECT_EQ(one.verdict, ProofVerdict::proven) << one.problem;
   EXPECT_EQ(one.steps, 20u);
   EXPECT_EQ(one.least_distance, two.least_distance);
   EXPECT_EQ(one.closest->time, two.closest->time);
@@ -469,7 +469,7 @@ TEST(VerifyRun, FindsAShiftedPiece) {
   for (const double by : {1e-4, -1e-4, 1e-11}) {
     const RunVerification found =
         after([&](RecordedRun& run) { run.steps[7].bodies[0].pieces[1].X_WB.position.z() += by; });
-    EXPECT_EQ(found.verdict, RunVerdict::broken);
+    EXPECT_EQ(found.verdict, ProofVerdict::broken);
     EXPECT_EQ(found.steps, 7u);
     EXPECT_EQ(found.problem.rfind("Step 8: \"red\" jumps by ", 0), 0u) << found.problem;
   }
@@ -485,7 +485,7 @@ TEST(VerifyRun, FindsAShiftedBody) {
       step.bodies[1].X_WB.position.z() -= 1e-4;
     }
   });
-  EXPECT_EQ(found.verdict, RunVerdict::broken);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
   EXPECT_EQ(found.steps, 0u);
 }
 
@@ -500,7 +500,7 @@ TEST(VerifyRun, FindsAShiftedBodyWithItsScene) {
       step.bodies[1].X_WB.position.z() -= 1e-4;
     }
   });
-  EXPECT_EQ(found.verdict, RunVerdict::closer);
+  EXPECT_EQ(found.verdict, ProofVerdict::refuted);
   EXPECT_EQ(found.problem_at->step, 1u);
   EXPECT_EQ(found.problem_at->bodies, (BodyPair{0, 2}));
   EXPECT_LE(found.problem_at->distance, 1e-12);
@@ -509,7 +509,7 @@ TEST(VerifyRun, FindsAShiftedBodyWithItsScene) {
 TEST(VerifyRun, FindsATurnedPiece) {
   const RunVerification found =
       after([](RecordedRun& run) { run.steps[7].bodies[1].pieces[1].X_WB.rotation.x() += 1e-10; });
-  EXPECT_EQ(found.verdict, RunVerdict::broken);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
 }
 
 TEST(VerifyRun, FindsAPieceThatIsCutOut) {
@@ -517,11 +517,11 @@ TEST(VerifyRun, FindsAPieceThatIsCutOut) {
               auto& pieces = run.steps[7].bodies[1].pieces;
               pieces.erase(pieces.begin());
             }).verdict,
-            RunVerdict::broken);
+            ProofVerdict::broken);
   EXPECT_EQ(after([](RecordedRun& run) { run.steps[7].bodies[1].pieces.pop_back(); }).verdict,
-            RunVerdict::broken);
+            ProofVerdict::broken);
   EXPECT_EQ(after([](RecordedRun& run) { run.steps[7].bodies.pop_back(); }).verdict,
-            RunVerdict::broken);
+            ProofVerdict::broken);
 }
 
 TEST(VerifyRun, FindsAStepThatIsCutOut) {
@@ -533,7 +533,7 @@ TEST(VerifyRun, FindsAStepThatIsCutOut) {
       run.steps[k].index = k + 1;
     }
   });
-  EXPECT_EQ(renumbered.verdict, RunVerdict::broken);
+  EXPECT_EQ(renumbered.verdict, ProofVerdict::broken);
 }
 
 TEST(VerifyRun, FindsSwappedBodies) {
@@ -541,17 +541,18 @@ TEST(VerifyRun, FindsSwappedBodies) {
     std::swap(run.steps[7].bodies[0].pieces, run.steps[7].bodies[1].pieces);
     std::swap(run.steps[7].bodies[0].X_WB, run.steps[7].bodies[1].X_WB);
   });
-  EXPECT_EQ(found.verdict, RunVerdict::broken);
+  EXPECT_EQ(found.verdict, ProofVerdict::broken);
 }
 
 TEST(VerifyRun, FindsTimeThatGoesBack) {
   EXPECT_EQ(after([](RecordedRun& run) {
               std::swap(run.steps[7].bodies[0].pieces[0].to, run.steps[7].bodies[0].pieces[1].to);
             }).verdict,
-            RunVerdict::broken);
-  EXPECT_EQ(after([](RecordedRun& run) { run.steps[7].time -= 0.01; }).verdict, RunVerdict::broken);
+            ProofVerdict::broken);
+  EXPECT_EQ(after([](RecordedRun& run) { run.steps[7].time -= 0.01; }).verdict,
+            ProofVerdict::broken);
   EXPECT_EQ(after([](RecordedRun& run) { run.steps[7].lasted = -0.01; }).verdict,
-            RunVerdict::broken);
+            ProofVerdict::broken);
 }
 
 TEST(VerifyRun, FindsWhatIsNotANumber) {
@@ -559,16 +560,16 @@ TEST(VerifyRun, FindsWhatIsNotANumber) {
     return after([&](RecordedRun& run) { change(run.steps[7]); }).verdict;
   };
   EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].pieces[1].X_WB.position.x() = kNaN; }),
-            RunVerdict::broken);
+            ProofVerdict::broken);
   EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].pieces[1].translation.x() = kNaN; }),
-            RunVerdict::broken);
+            ProofVerdict::broken);
   EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].pieces[1].rotation_vector.x() = kNaN; }),
-            RunVerdict::broken);
+            ProofVerdict::broken);
   EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].X_WB.rotation.coeffs().setZero(); }),
-            RunVerdict::broken);
-  EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].pieces[1].to = kNaN; }), RunVerdict::broken);
-  EXPECT_EQ(verdict([](RunStep& s) { s.time = kNaN; }), RunVerdict::broken);
-  EXPECT_EQ(verdict([](RunStep& s) { s.clearance = kNaN; }), RunVerdict::broken);
+            ProofVerdict::broken);
+  EXPECT_EQ(verdict([](RunStep& s) { s.bodies[0].pieces[1].to = kNaN; }), ProofVerdict::broken);
+  EXPECT_EQ(verdict([](RunStep& s) { s.time = kNaN; }), ProofVerdict::broken);
+  EXPECT_EQ(verdict([](RunStep& s) { s.clearance = kNaN; }), ProofVerdict::broken);
 }
 
 // Between frames it dips into the floor and comes back: only the pieces know.
@@ -580,19 +581,19 @@ TEST(VerifyRun, FindsADipBetweenFrames) {
                {.lasts = 0.005, .velocity = {0.0, 0.0, 200.0 * depth}}}}},
             1e-6);
     const RunVerification found = run.verify();
-    EXPECT_EQ(found.verdict, RunVerdict::closer) << depth;
+    EXPECT_EQ(found.verdict, ProofVerdict::refuted) << depth;
     EXPECT_EQ(found.problem_at->step, 21u);
   }
 }
 
 TEST(VerifyRun, SaysWhatItCannotProve) {
   const RunVerification found = crates().verify({.work = 3});
-  EXPECT_EQ(found.verdict, RunVerdict::not_proven);
+  EXPECT_EQ(found.verdict, ProofVerdict::not_proven);
   EXPECT_EQ(found.least_distance, 0.0);
   EXPECT_EQ(found.problem,
             "It could not be proven that \"floor\" and \"red\" stay apart as promised.");
   EXPECT_EQ(RecordedRun(scene(sphere(0.1, "[0, 0, 1]"), sphere(0.1, "[0, 0, 0]"))).verify().verdict,
-            RunVerdict::not_proven);
+            ProofVerdict::not_proven);
 }
 
 TEST(VerifyRun, RefusesBadOptions) {

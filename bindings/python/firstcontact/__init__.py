@@ -39,11 +39,12 @@ from ._retime import retime
 from ._run import Run, read_run
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, HeldPair, Joint, JointTurn,
-                      LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RateUse,
-                      RetimeAnswer, RetimedMoment, RobotGroup,
+                      LimitViolation, Mesh, Mimic, MovingShape, PathVerification, PlanAnswer, PlanningRequest,
+                      ProofMoment, RateUse, ResultVerification, RetimeAnswer, RetimedMoment, RobotGroup,
                       RobotSemantics, RunContacts, RunImpacts, RunMoment, RunTies, RunVerification)
+from ._verify import verify_path, verify_result
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
-                     JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
+                     JointType, ProofVerdict, StartContacts, Turning, UndecidedReason, Verdict)
 
 __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproach", "ClosestApproachResult", "Contact", "ContactInterval",
@@ -52,9 +53,9 @@ __all__ = [
     "HapticSession", "HapticTick", "HeightMap", "HeldPair", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
-    "PlanAnswer", "PlanningRequest", "PointReading", "Pose", "RateUse",
-    "Result", "RetimeAnswer", "RetimedMoment", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
-    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerdict", "RunVerification", "Scene",
+    "PathVerification", "PlanAnswer", "PlanningRequest", "PointReading", "Pose", "ProofMoment", "ProofVerdict", "RateUse",
+    "Result", "ResultVerification", "RetimeAnswer", "RetimedMoment", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
+    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
@@ -65,7 +66,7 @@ __all__ = [
     "parse_scene", "parse_stl", "parse_xyz", "plan", "read_heights", "read_mesh", "read_mesh_file",
     "read_points", "read_points_file",
     "read_request", "read_run", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
-    "retime", "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
+    "retime", "sample_gap", "simulate", "verify_path", "verify_result", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
 ]
 
 # People should see, and pickle, the names that they use.

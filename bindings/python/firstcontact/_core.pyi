@@ -1,6 +1,6 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, overload
+from typing import Any, NoReturn, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -8,15 +8,15 @@ import numpy.typing as npt
 from ._reports import FileReport, MeshReading, PairCounts, PointReading
 from ._trajectory import Columns
 from ._tuples import (ContactInterval, EdgeAnswers, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RetimeAnswer, RobotSemantics, RunContacts, RunImpacts, RunTies,
-                      RunVerification)
+                      LimitViolation, Mesh, MovingShape, PathVerification, PlanAnswer, PlanningRequest, ResultVerification, RetimeAnswer,
+                      RobotSemantics, RunContacts, RunImpacts, RunTies, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      Turning, UndecidedReason, Verdict)
 
 _Numbers = npt.ArrayLike
 _Doubles = npt.NDArray[np.float64]
 _MeshLike = tuple[_Numbers, _Numbers]
-_Moving = tuple[Shape, Motion]
+_Moving = tuple[Shape, Motion | Pose]
 _Path = str | os.PathLike[str]
 
 __version__: str
@@ -24,7 +24,7 @@ __version__: str
 # Motion
 
 class Pose:
-    def __init__(self, position: _Numbers = ..., quaternion_wxyz: _Numbers | None = ..., *,
+    def __init__(self, position: _Numbers = ..., *, quaternion_wxyz: _Numbers | None = ...,
                  rpy: _Numbers | None = ..., rotation_vector: _Numbers | None = ...) -> None: ...
     @staticmethod
     def from_matrix(matrix: _Numbers) -> Pose: ...
@@ -176,16 +176,16 @@ class ElementaryContact:
 
 def linear_vertex_face_contact(vertex: tuple[_Numbers, _Numbers], face: tuple[_Numbers, _Numbers],
                                *, margin: float = ..., tolerance: float = ...,
-                               maximum_steps: int = ...) -> LinearContact: ...
+                               maximum_steps: int | None = ...) -> LinearContact: ...
 def linear_edge_edge_contact(A: tuple[_Numbers, _Numbers], B: tuple[_Numbers, _Numbers], *,
                              margin: float = ..., tolerance: float = ...,
-                             maximum_steps: int = ...) -> LinearContact: ...
+                             maximum_steps: int | None = ...) -> LinearContact: ...
 def vertex_face_contact(face_A: _Numbers, X_WA: Motion, vertex_B: _Numbers, X_WB: Motion, *,
                         t_begin: float = ..., t_end: float = ..., time_tolerance: float = ...,
-                        maximum_steps: int = ...) -> ElementaryContact: ...
+                        maximum_steps: int | None = ...) -> ElementaryContact: ...
 def edge_edge_contact(edge_A: _Numbers, X_WA: Motion, edge_B: _Numbers, X_WB: Motion, *,
                       t_begin: float = ..., t_end: float = ..., time_tolerance: float = ...,
-                      maximum_steps: int = ...) -> ElementaryContact: ...
+                      maximum_steps: int | None = ...) -> ElementaryContact: ...
 
 # Queries
 
@@ -228,6 +228,7 @@ class WorkCount:
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
 
 class FirstContactResult:
+    def __bool__(self) -> NoReturn: ...
     @property
     def verdict(self) -> Verdict: ...
     @property
@@ -300,6 +301,7 @@ class PairAnswer(FirstContactResult):
     def closest(self) -> ClosestApproach | None: ...
 
 class SceneResult:
+    def __bool__(self) -> NoReturn: ...
     @property
     def verdict(self) -> Verdict: ...
     @property
@@ -361,28 +363,28 @@ class BodySet:
 def first_contact(A: _Moving, B: _Moving, workspace: Workspace | None = ..., *,
                   margin: float = ..., tolerance: float = ...,
                   start_contacts: StartContacts | str = ..., contacts: ContactState | str | int = ...,
-                  contact_band: float = ..., steps: int = ..., memory: int = ...,
+                  contact_band: float = ..., steps: int | None = ..., memory: int = ...,
                   deadline: float | None = ...,
                   stop: StopSource | None = ...) -> FirstContactResult: ...
 @overload
 def first_contact(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
                   tolerance: float = ..., start_contacts: StartContacts | str = ...,
-                  contacts: ContactState | str | int = ..., contact_band: float = ..., steps: int = ...,
+                  contacts: ContactState | str | int = ..., contact_band: float = ..., steps: int | None = ...,
                   memory: int = ..., deadline: float | None = ..., threads: int = ...,
                   progress: Callable[[float], object] | None = ...,
                   stop: StopSource | None = ...) -> SceneResult: ...
 def answer_each_pair(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
                      tolerance: float = ..., start_contacts: StartContacts | str = ...,
                      contacts: ContactState | str | int = ..., contact_band: float = ...,
-                     steps: int = ..., memory: int = ..., deadline: float | None = ...,
+                     steps: int | None = ..., memory: int = ..., deadline: float | None = ...,
                      threads: int = ..., progress: Callable[[float], object] | None = ...,
                      stop: StopSource | None = ..., closest: bool = ...,
                      all_contacts_in_time: bool = ...) -> list[PairAnswer]: ...
 def closest_approach(A: _Moving, B: _Moving, workspace: Workspace | None = ..., *,
-                     tolerance: float = ..., steps: int = ..., memory: int = ...,
+                     tolerance: float = ..., steps: int | None = ..., memory: int = ...,
                      deadline: float | None = ...,
                      stop: StopSource | None = ...) -> ClosestApproachResult: ...
-def distance(A: _Moving, B: _Moving, t: float,
+def distance(A: _Moving, B: _Moving, t: float = ...,
              workspace: Workspace | None = ...) -> DistanceResult: ...
 
 # Scenes
@@ -469,6 +471,7 @@ class ScenePair:
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
 
 class Result:
+    def __bool__(self) -> NoReturn: ...
     @property
     def id(self) -> str: ...
     @property
@@ -845,3 +848,9 @@ def retime(scene: Scene | None, text: str | None, file: _Path, *, mode: str, lim
 def verify_run(path: _Path, *, scripted_tolerance: float = ..., work: int = ..., threads: int = ...,
                progress: Callable[[float], object] | None = ...,
                stop: StopSource | None = ...) -> RunVerification: ...
+def verify_result_text(text: str, source: str, *, lenient: bool = ..., work: int = ..., threads: int = ...,
+                       progress: Callable[[float], object] | None = ...,
+                       stop: StopSource | None = ...) -> ResultVerification: ...
+def verify_path_text(text: str, source: str, *, lenient: bool = ..., work: int = ..., threads: int = ...,
+                     progress: Callable[[float], object] | None = ...,
+                     stop: StopSource | None = ...) -> PathVerification: ...

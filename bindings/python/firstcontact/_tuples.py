@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._words import JointLimit, JointType, RunVerdict, Turning, UndecidedReason
+from ._words import JointLimit, JointType, ProofVerdict, Turning, UndecidedReason
 
 if TYPE_CHECKING:
     from ._core import Feature, Motion, Pose, Shape, Trajectory
@@ -369,11 +369,11 @@ class RunMoment(NamedTuple):
 class RunVerification(NamedTuple):
     """What is proven of a recorded run."""
 
-    verdict: RunVerdict
+    verdict: ProofVerdict
     problem: str
     """One sentence; empty where the run is proven."""
     problem_at: RunMoment | None
-    """Of ``closer`` and ``not_proven``, where there is one."""
+    """Of ``refuted`` and ``not_proven``, where there is one."""
     steps: int
     """Verified; those up to the problem where there is one."""
     time: float
@@ -394,5 +394,65 @@ class RunVerification(NamedTuple):
     """Whether the file ends in the middle of a line, which was left out."""
     pair_counts: "PairCounts"
     """What the proof is about: pairs of which one is free."""
+    warnings: tuple[str, ...]
+    """Of reading the scene's files."""
+
+
+class ProofMoment(NamedTuple):
+    """Two bodies or links over a stretch of time."""
+
+    pair: tuple[str, str]
+    """Their names."""
+    begin: float
+    """[-]  Of the duration of the scene; of a path within the edge."""
+    end: float
+    distance: float | None
+    """[m]  At most so far apart, where that is known."""
+
+
+class ResultVerification(NamedTuple):
+    """What is proven of a result."""
+
+    verdict: ProofVerdict
+    problem: str
+    """One sentence; empty where all is proven."""
+    problem_at: ProofMoment | None
+    """Of ``refuted`` and ``not_proven``, where there is one."""
+    t: float
+    """[-]  The claim: free before it."""
+    time: float
+    """[s]"""
+    left_open: float
+    """[-]  All but the last so much before t is proven to be free."""
+    contact_distance: float | None
+    """[m]  Where a contact is proven: at t the pair is at most so far apart."""
+    tolerance: float
+    """[m]  Of the contacts, as the result states it."""
+    contacts: int
+    """Pairs that are proven to be in contact."""
+    has_digests: bool
+    """Else it is not known whether a file or the scene has changed."""
+    pair_counts: "PairCounts"
+    """Which pairs the proof is about."""
+    warnings: tuple[str, ...]
+    """Of reading the scene's files."""
+
+
+class PathVerification(NamedTuple):
+    """What is proven of a planned path."""
+
+    verdict: ProofVerdict
+    problem: str
+    """One sentence; empty where all is proven."""
+    problem_at: ProofMoment | None
+    """The pair that is left open or too close."""
+    problem_edge: int | None
+    """From 0."""
+    edges: int
+    """Proven, from the start on."""
+    reaches_goal: bool
+    """The last waypoint is a goal; else the path is approximate."""
+    tested: int
+    """Pairs of which one moves along edges."""
     warnings: tuple[str, ...]
     """Of reading the scene's files."""

@@ -114,14 +114,14 @@ class Turning(enum.StrEnum):
     """By at most half a turn."""
 
 
-class RunVerdict(enum.StrEnum):
-    """What is proven of a recorded run."""
+class ProofVerdict(enum.StrEnum):
+    """What a second proof says of a run, a result or a path."""
 
     proven = "proven"
-    """Every pair stayed apart all the time, by what each step promised."""
-    closer = "closer"
-    """Proven: a pair came closer than promised, or into each other."""
+    """All that it claims, as far as a second proof covers it."""
+    refuted = "refuted"
+    """Proven: one of its claims is wrong, such as two bodies that come too close."""
     broken = "broken"
-    """The record contradicts itself or its scene, such as by a body that jumps."""
+    """It contradicts itself or its scene, such as by a body that jumps."""
     not_proven = "not_proven"
-    """Neither; nothing is known of the moment that is named."""
+    """Neither; the pair and the times that are left open are named."""

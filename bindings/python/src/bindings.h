@@ -22,7 +22,7 @@ void bind_robot_scene(pybind11::module_& m);
 void bind_run(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
 void bind_haptics(pybind11::module_& m);
-void bind_verify_run(pybind11::module_& m);
+void bind_verification(pybind11::module_& m);
 void bind_planning(pybind11::module_& m);
 void bind_retiming(pybind11::module_& m);
 

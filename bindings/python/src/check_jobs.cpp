@@ -88,8 +88,8 @@ struct SceneSource {
 
 /// Two shapes of Python, which somebody keeps.
 struct TwoShapes {
-  MovingShape A;
-  MovingShape B;
+  GivenShape A;
+  GivenShape B;
 };
 
 using Job = std::variant<SharedScene, SceneSource, TwoShapes>;
@@ -162,7 +162,7 @@ class JobAnswerer {
     options.contacts = other.contacts.value_or(options.contacts);
     options.budget.deadline = deadline_in(other.deadline);
     options.budget.stop = options_.check.stop;
-    return first_contact(two.A, two.B, two_bodies_, options);
+    return first_contact(two.A.moving(), two.B.moving(), two_bodies_, options);
   }
 
   const JobOptions& options_;
@@ -223,7 +223,7 @@ Job job_from(py::handle value) {
     refuse_type(value, "job", what);
   }
   const auto two = argument<py::tuple>(value, "job", what);
-  return TwoShapes{moving_shape_from(two[0], "A"), moving_shape_from(two[1], "B")};
+  return TwoShapes{given_shape_from(two[0], "A"), given_shape_from(two[1], "B")};
 }
 
 /// Turns an answer into an object of Python, and forgets it.

@@ -21,6 +21,7 @@
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
 
@@ -351,7 +352,7 @@ py::object move(const Shape& shape, const py::object& to) {
 /// @throws std::invalid_argument
 void scale_by(double factor, std::vector<Eigen::Vector3d>& points) {
   if (!(factor > 0.0 && std::isfinite(factor))) {
-    throw std::invalid_argument("scale must be > 0, got " + std::to_string(factor));
+    throw std::invalid_argument("scale must be > 0, got " + detail::shortest(factor));
   }
   if (factor != 1.0) {
     for (Eigen::Vector3d& point : points) {

@@ -21,7 +21,7 @@ PYBIND11_MODULE(_core, m) {
   bind_run(m);
   bind_simulator(m);
   bind_haptics(m);
-  bind_verify_run(m);
+  bind_verification(m);
   bind_planning(m);
   bind_retiming(m);
 }

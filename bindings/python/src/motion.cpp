@@ -113,7 +113,8 @@ void bind_pose(py::module_& m) {
 The rotation is that of the quaternion divided by its exact length. `rpy` and `rotation_vector` are
 converted in double precision; what is proven holds for the converted numbers.)")
       .def(py::init(&make_pose), py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
-           py::arg("quaternion_wxyz") = py::none(), py::kw_only(), py::arg("rpy") = py::none(),
+           py::kw_only(),  // A quaternion by its place may be meant as xyzw.
+           py::arg("quaternion_wxyz") = py::none(), py::arg("rpy") = py::none(),
            py::arg("rotation_vector") = py::none(),
            R"(position: [m] (3,), of the body's origin in the world.
 quaternion_wxyz: [-] (4,), any length but zero. rpy: [rad] (3,), about the fixed axes x, then y,
@@ -140,8 +141,8 @@ then z. rotation_vector: [rad] (3,), axis times angle. At most one of these thre
            })
       .def("__repr__",
            [](const Pose& pose) {
-             return "Pose(" + std::string(py::repr(plain(pose.position))) + ", " +
-                    std::string(py::repr(plain(pose.rotation))) + ")";
+             return "Pose(" + std::string(py::repr(plain(pose.position))) +
+                    ", quaternion_wxyz=" + std::string(py::repr(plain(pose.rotation))) + ")";
            })
       .def(py::pickle(
           [](const Pose& pose) {

@@ -13,6 +13,7 @@
 #include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/robot/joint_path.h>
@@ -37,12 +38,12 @@ const std::size_t kMemory = WorkBudget{}.memory;
 FirstContactResult ask_first_contact(const py::object& A, const py::object& B,
                                      PairWorkspace* workspace, FirstContactOptions options,
                                      const std::stop_source* stop) {
-  const MovingShape a = moving_shape_from(A, "A");
-  const MovingShape b = moving_shape_from(B, "B");
+  const GivenShape a = given_shape_from(A, "A");
+  const GivenShape b = given_shape_from(B, "B");
   Lease<Workspace> lease(workspace);
   return run_query(stop, [&](const QueryStop& query) {
     options.budget.stop = query.token();
-    return first_contact(a, b, lease.get(), options);
+    return first_contact(a.moving(), b.moving(), lease.get(), options);
   });
 }
 
@@ -51,7 +52,7 @@ void bind_pair_questions(py::module_& m) {
       "first_contact",
       [](const FirstShape& A, const py::object& B, OrNone<PairWorkspace> workspace, double margin,
          double tolerance, StartContacts start_contacts, ContactState contacts, double contact_band,
-         std::uint64_t steps, std::size_t memory, std::optional<double> deadline,
+         std::optional<std::uint64_t> steps, std::size_t memory, std::optional<double> deadline,
          OrNone<std::stop_source> stop) {
         return ask_first_contact(A.value, B, workspace,
                                  {.margin = margin,
@@ -59,7 +60,7 @@ void bind_pair_questions(py::module_& m) {
                                   .start_contacts = start_contacts,
                                   .contacts = contacts,
                                   .contact_band = contact_band,
-                                  .budget = {.steps = steps,
+                                  .budget = {.steps = steps.value_or(kAllSteps),
                                              .memory = memory,
                                              .deadline = deadline_in(deadline),
                                              .stop = {}}},
@@ -69,11 +70,11 @@ void bind_pair_questions(py::module_& m) {
       py::arg("margin") = 0.0, py::arg("tolerance") = 1e-6,
       py::arg("start_contacts") = StartContacts::report,
       py::arg("contacts") = ContactState::nearest(), py::arg("contact_band") = 0.0,
-      py::arg("steps") = kAllSteps, py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
+      py::arg("steps") = py::none(), py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
       py::arg("stop") = py::none(),
       R"(Finds the first contact of A and B during the step.
 
-A, B: pairs (Shape, Motion). margin: [m] closer than this counts as contact. tolerance: [m] a
+A, B: pairs (Shape, Motion), or (Shape, Pose) where one rests. margin: [m] closer than this counts as contact. tolerance: [m] a
 reported contact is no farther than margin + tolerance. contact_band: [m] reports pairs within
 margin + tolerance + band. contacts: which feature pairs are listed; a number: so many at most, the
 nearest and some of every region. steps, memory [byte], deadline [s], stop: a budget; spending it gives
@@ -85,36 +86,41 @@ Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.)");
   m.def(
       "closest_approach",
       [](const py::object& A, const py::object& B, OrNone<PairWorkspace> workspace,
-         double tolerance, std::uint64_t steps, std::size_t memory, std::optional<double> deadline,
-         OrNone<std::stop_source> stop) {
-        const MovingShape a = moving_shape_from(A, "A");
-        const MovingShape b = moving_shape_from(B, "B");
-        ClosestApproachOptions options{
-            .tolerance = tolerance,
-            .budget = {
-                .steps = steps, .memory = memory, .deadline = deadline_in(deadline), .stop = {}}};
+         double tolerance, std::optional<std::uint64_t> steps, std::size_t memory,
+         std::optional<double> deadline, OrNone<std::stop_source> stop) {
+        const GivenShape a = given_shape_from(A, "A");
+        const GivenShape b = given_shape_from(B, "B");
+        ClosestApproachOptions options{.tolerance = tolerance,
+                                       .budget = {.steps = steps.value_or(kAllSteps),
+                                                  .memory = memory,
+                                                  .deadline = deadline_in(deadline),
+                                                  .stop = {}}};
         Lease<Workspace> lease(workspace);
         return run_query(stop, [&](const QueryStop& query) {
           options.budget.stop = query.token();
-          return closest_approach(a, b, lease.get(), options);
+          return closest_approach(a.moving(), b.moving(), lease.get(), options);
         });
       },
       py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
-      py::arg("tolerance") = 1e-6, py::arg("steps") = kAllSteps, py::arg("memory") = kMemory,
+      py::arg("tolerance") = 1e-6, py::arg("steps") = py::none(), py::arg("memory") = kMemory,
       py::arg("deadline") = py::none(), py::arg("stop") = py::none(),
       R"(Least distance of A and B over the step, to the tolerance [m], with a time where it is attained.
 
-A, B: pairs (Shape, Motion). The budget as of first_contact.)");
+A, B: as of first_contact, and so the budget.)");
   m.def(
       "distance",
       [](const py::object& A, const py::object& B, double t, OrNone<PairWorkspace> workspace) {
-        const MovingShape a = moving_shape_from(A, "A");
-        const MovingShape b = moving_shape_from(B, "B");
+        const GivenShape a = given_shape_from(A, "A");
+        const GivenShape b = given_shape_from(B, "B");
         Lease<Workspace> lease(workspace);
-        return run_query(nullptr, [&](const QueryStop&) { return distance(a, b, t, lease.get()); });
+        return run_query(nullptr, [&](const QueryStop&) {
+          return distance(a.moving(), b.moving(), t, lease.get());
+        });
       },
-      py::arg("A"), py::arg("B"), py::arg("t"), py::arg("workspace") = py::none(),
-      "Distance of A(t) and B(t), pairs (Shape, Motion). t: [-] in [0, 1].");
+      py::arg("A"), py::arg("B"), py::arg("t") = 0.0, py::arg("workspace") = py::none(),
+      R"(Distance of A(t) and B(t), pairs (Shape, Motion), or (Shape, Pose) where one rests.
+
+t: [-] in [0, 1].)");
 }
 
 /// A question about a set of bodies, as it comes from Python.
@@ -145,22 +151,22 @@ void bind_set_question(py::module_& m, const char* name, Question question, cons
   m.def(name, question, py::arg("bodies"), py::arg("workspace") = py::none(), py::kw_only(),
         py::arg("tolerance") = 1e-6, py::arg("start_contacts") = StartContacts::report,
         py::arg("contacts") = ContactState::nearest(), py::arg("contact_band") = 0.0,
-        py::arg("steps") = kAllSteps, py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
-        py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
-        extra...);
+        py::arg("steps") = py::none(), py::arg("memory") = kMemory,
+        py::arg("deadline") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+        py::arg("stop") = py::none(), extra...);
 }
 
 ManyBodiesOptions set_options(double tolerance, StartContacts start_contacts, ContactState contacts,
-                              double contact_band, std::uint64_t steps, std::size_t memory,
-                              std::optional<double> deadline) {
-  return {
-      .pair = {
-          .tolerance = tolerance,
-          .start_contacts = start_contacts,
-          .contacts = contacts,
-          .contact_band = contact_band,
-          .budget = {
-              .steps = steps, .memory = memory, .deadline = deadline_in(deadline), .stop = {}}}};
+                              double contact_band, std::optional<std::uint64_t> steps,
+                              std::size_t memory, std::optional<double> deadline) {
+  return {.pair = {.tolerance = tolerance,
+                   .start_contacts = start_contacts,
+                   .contacts = contacts,
+                   .contact_band = contact_band,
+                   .budget = {.steps = steps.value_or(kAllSteps),
+                              .memory = memory,
+                              .deadline = deadline_in(deadline),
+                              .stop = {}}}};
 }
 
 void bind_set_questions(py::module_& m) {
@@ -168,8 +174,8 @@ void bind_set_questions(py::module_& m) {
       m, "first_contact",
       [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
          StartContacts start_contacts, ContactState contacts, double contact_band,
-         std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
-         const py::object& progress, OrNone<std::stop_source> stop) {
+         std::optional<std::uint64_t> steps, std::size_t memory, std::optional<double> deadline,
+         int threads, const py::object& progress, OrNone<std::stop_source> stop) {
         ManyBodiesOptions options =
             set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
         options.threads = threads;
@@ -188,8 +194,8 @@ rules, the budget holds for each pair.)");
       m, "answer_each_pair",
       [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
          StartContacts start_contacts, ContactState contacts, double contact_band,
-         std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
-         const py::object& progress, OrNone<std::stop_source> stop, bool closest,
+         std::optional<std::uint64_t> steps, std::size_t memory, std::optional<double> deadline,
+         int threads, const py::object& progress, OrNone<std::stop_source> stop, bool closest,
          bool all_contacts_in_time) {
         ManyBodiesOptions options =
             set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
@@ -367,7 +373,7 @@ std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<d
     return std::nullopt;
   }
   if (!(*seconds > 0.0)) {
-    throw std::invalid_argument("deadline must be > 0, got " + std::to_string(*seconds));
+    throw std::invalid_argument("deadline must be > 0, got " + detail::shortest(*seconds));
   }
   constexpr double kYear = 3e7;  // [s]  Longer ones are none, and would overflow the clock.
   return *seconds > kYear
@@ -376,17 +382,26 @@ std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<d
                                                 std::chrono::duration<double>(*seconds)));
 }
 
-MovingShape moving_shape_from(py::handle value, const char* name) {
+GivenShape given_shape_from(py::handle value, const char* name) {
   if (PyTuple_Check(value.ptr()) && PyTuple_GET_SIZE(value.ptr()) == 2) {
     py::detail::make_caster<Shape> shape;
     py::detail::make_caster<RecordedMotion> motion;
-    if (shape.load(PyTuple_GET_ITEM(value.ptr(), 0), false) &&
-        motion.load(PyTuple_GET_ITEM(value.ptr(), 1), false)) {
-      return {py::detail::cast_op<const Shape&>(shape),
-              py::detail::cast_op<const RecordedMotion&>(motion).motion};
+    py::detail::make_caster<Pose> pose;
+    const py::handle moved = PyTuple_GET_ITEM(value.ptr(), 1);
+    if (shape.load(PyTuple_GET_ITEM(value.ptr(), 0), false)) {
+      const auto& given = py::detail::cast_op<const Shape&>(shape);
+      if (motion.load(moved, false)) {
+        return {&given, &py::detail::cast_op<const RecordedMotion&>(motion).motion};
+      }
+      if (pose.load(moved, false)) {
+        auto rest =
+            std::make_shared<const Motion>(Motion::fixed(py::detail::cast_op<const Pose&>(pose)));
+        return {&given, rest.get(), rest};
+      }
     }
   }
-  throw py::type_error(std::string(name) + ": expected a pair (Shape, Motion), got " +
+  throw py::type_error(std::string(name) +
+                       ": expected a pair (Shape, Motion) or (Shape, Pose), got " +
                        std::string(py::repr(value)));
 }
 

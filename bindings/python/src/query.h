@@ -114,10 +114,17 @@ class Reading {
   HeldBodySet& set_;
 };
 
-/// A pair (Shape, Motion).
-///
+/// A pair (Shape, Motion) or (Shape, Pose) of Python, which keeps the shape and the motion.
+struct GivenShape {
+  const Shape* shape = nullptr;
+  const Motion* motion = nullptr;
+  std::shared_ptr<const Motion> rest = {};  ///< Of a pose.
+
+  [[nodiscard]] MovingShape moving() const { return {*shape, *motion}; }
+};
+
 /// @throws pybind11::type_error
-MovingShape moving_shape_from(pybind11::handle value, const char* name);
+GivenShape given_shape_from(pybind11::handle value, const char* name);
 
 /// The first shape of a question that is also asked about a BodySet: that one is for the next
 /// overload, anything else gets a complaint.

@@ -244,6 +244,7 @@ void bind_contact(py::module_& m) {
 template <typename T, typename... Options>
 void add_outcome(py::class_<T, Options...>& type, const char* t, const char* clearance,
                  const char* tolerance_used, const char* enclosure_error) {
+  refuse_as_condition(type);
   type.def_readonly("verdict", &T::verdict)
       .def_readonly("reason", &T::reason, "Why it is undecided.")
       .def_readonly("t", &T::t, t)

@@ -429,6 +429,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def("__repr__", [](const HeldResult& r) { return describe(r); })
       .def(py::pickle([](const HeldResult& r) { return state_of(r); },
                       [](const py::tuple& state) { return result_from(state); }));
+  refuse_as_condition(type);
   bind_result_page(type);
 }
 

@@ -310,7 +310,9 @@ std::shared_ptr<HeldScene> HeldRobotScene::along(const Trajectory* trajectory,
   }
   const double last = last_time(scene);
   scene.duration = last > 0.0 ? last : fixed_duration_.value_or(1.0);
-  if (fixed_duration_ && *fixed_duration_ != scene.duration) {
+  constexpr double kSameDuration = 1e-9;  // [-]  Beyond the rounding of the fastest motion.
+  if (fixed_duration_ &&
+      std::abs(*fixed_duration_ - scene.duration) > kSameDuration * scene.duration) {
     throw py::value_error("trajectory: expected one of " +
                           std::string(py::repr(py::float_(*fixed_duration_))) +
                           " s, as surroundings move over all of it, got one of " +

@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/parallel_sampling.h>
 #include <firstcontact/scene/shape_cache.h>
@@ -46,7 +47,7 @@ std::shared_ptr<HeldScene> HeldScene::sharing(Scene scene) const {
 
 std::shared_ptr<HeldScene> HeldScene::with(const OtherOptions& options) const {
   if (options.deadline && !(*options.deadline > 0.0)) {
-    throw std::invalid_argument("deadline must be > 0, got " + std::to_string(*options.deadline));
+    throw std::invalid_argument("deadline must be > 0, got " + detail::shortest(*options.deadline));
   }
   Scene scene = scene_;
   scene.options.margin = options.margin.value_or(scene.options.margin);
@@ -151,7 +152,7 @@ the working directory where they were so, and reads them again when they are nee
           "FileReports: what became of every file that was read.")
       .def_property_readonly(
           "warnings", [](const HeldScene& s) { return loaded_without_gil(s).warnings; },
-          "What reading warns of: names that nobody knows, sizes that look wrong, bodies that "
+          "What reading warns of: unknown names, sizes that look wrong, bodies that "
           "begin inside of others.")
       .def_property_readonly(
           "pair_counts",

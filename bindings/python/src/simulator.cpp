@@ -1,3 +1,4 @@
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/simulation/simulator.h>
 
@@ -75,7 +76,7 @@ class HeldSimulator {
 void require_positive(const char* name, std::optional<double> seconds) {
   if (seconds && !(*seconds > 0.0 && std::isfinite(*seconds))) {
     throw std::invalid_argument(std::string(name) + " must be > 0 and finite, got " +
-                                std::to_string(*seconds));
+                                detail::shortest(*seconds));
   }
 }
 

@@ -1,15 +1,23 @@
-#include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/verification/verify_run.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/record/read_run.h>
+#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene_files/read_claims.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/verify_path.h>
+#include <firstcontact/verification/verify_result.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include "bindings.h"
 #include "errors.h"
@@ -39,11 +47,6 @@ Verified verify_file(const std::filesystem::path& path, const VerifyRunOptions& 
   return {run.header(), std::move(found), run.is_cut_off()};
 }
 
-/// A class of firstcontact/_tuples.py.
-py::object tuple_type(const char* name) {
-  return py::module_::import("firstcontact._tuples").attr(name);
-}
-
 py::object to_tuple(const RunHeader& header, const std::optional<RunMoment>& moment) {
   if (!moment) {
     return py::none();
@@ -54,8 +57,8 @@ py::object to_tuple(const RunHeader& header, const std::optional<RunMoment>& mom
                                  py::make_tuple(names.at(A), names.at(B)), moment->distance);
 }
 
-py::object verify(const std::filesystem::path& path, double scripted_tolerance, std::size_t work,
-                  int threads, const py::object& progress, OrNone<std::stop_source> stop) {
+py::object prove_run(const std::filesystem::path& path, double scripted_tolerance, std::size_t work,
+                     int threads, const py::object& progress, OrNone<std::stop_source> stop) {
   require_file(path);
   const Verified verified = run_query(stop, [&](QueryStop& query) {
     return verify_file(path, {.scripted_tolerance = scripted_tolerance,
@@ -72,12 +75,66 @@ py::object verify(const std::filesystem::path& path, double scripted_tolerance, 
       pair_counts_tuple(found.pair_counts), py::tuple(py::cast(found.warnings)));
 }
 
+py::object to_tuple(const std::optional<ProofMoment>& moment) {
+  return moment ? tuple_type("ProofMoment")(py::make_tuple(moment->pair[0], moment->pair[1]),
+                                            moment->from, moment->to, moment->distance)
+                : py::none();
+}
+
+/// How the second proof of a result or a path is asked for.
+struct Asked {
+  std::size_t work = 0;
+  int threads = 0;
+  const py::object& progress;
+  const std::stop_source* stop = nullptr;
+};
+
+/// What `prove` says of a claim, without the GIL.
+template <class Prove>
+auto proof_of(const std::string& source, const Asked& asked, const Prove& prove) {
+  return run_query(asked.stop, [&](QueryStop& query) {
+    try {
+      return prove(VerifyResultOptions{.work = asked.work,
+                                       .threads = asked.threads,
+                                       .stop = query.token(),
+                                       .progress = progress_of(asked.progress, query)});
+    } catch (const std::invalid_argument& error) {
+      throw ParseError(source, error.what());
+    }
+  });
+}
+
+py::object prove_result(const std::string& text, const std::string& source, bool lenient,
+                        std::size_t work, int threads, const py::object& progress,
+                        OrNone<std::stop_source> stop) {
+  const ResultClaims claims = read_claims(text, source, 1, {.lenient = lenient});
+  const ResultVerification found =
+      proof_of(source, {work, threads, progress, stop},
+               [&](const VerifyResultOptions& options) { return verify_result(claims, options); });
+  return tuple_type("ResultVerification")(
+      found.verdict, found.problem, to_tuple(found.problem_at), found.t, found.time,
+      found.left_open, found.contact_distance, found.tolerance, found.contacts, found.has_digests,
+      pair_counts_tuple(found.pair_counts), py::tuple(py::cast(found.warnings)));
+}
+
+py::object prove_path(const std::string& text, const std::string& source, bool lenient,
+                      std::size_t work, int threads, const py::object& progress,
+                      OrNone<std::stop_source> stop) {
+  const PlannedPath path = parse_planned_path(text, source, {.lenient = lenient});
+  const PathVerification found =
+      proof_of(source, {work, threads, progress, stop},
+               [&](const VerifyResultOptions& options) { return verify_path(path, options); });
+  return tuple_type("PathVerification")(found.verdict, found.problem, to_tuple(found.problem_at),
+                                        found.problem_edge, found.edges, found.reaches_goal,
+                                        found.tested, py::tuple(py::cast(found.warnings)));
+}
+
 }  // namespace
 
-void bind_verify_run(py::module_& m) {
+void bind_verification(py::module_& m) {
   const VerifyRunOptions defaults;
   m.def(
-      "verify_run", &verify, py::arg("path"), py::kw_only(),
+      "verify_run", &prove_run, py::arg("path"), py::kw_only(),
       py::arg("scripted_tolerance") = defaults.scripted_tolerance, py::arg("work") = defaults.work,
       py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
       R"(Proves of a recorded run, with other code than the simulation's, that no free body interpenetrates.
@@ -89,6 +146,14 @@ work: tests of two boxes or triangles for one pair and one step. threads: at mos
 core; the answer does not depend on it. progress: called with the time that is proven, in s. stop:
 ends it `not_proven`, with what is proven so far. Ctrl-C raises KeyboardInterrupt. ParseError where
 the file is no run.)");
+  const VerifyResultOptions asked;
+  for (const auto& [name, prove] : {std::pair("verify_result_text", &prove_result),
+                                    std::pair("verify_path_text", &prove_path)}) {
+    m.def(name, prove, py::arg("text"), py::arg("source"), py::kw_only(),
+          py::arg("lenient") = false, py::arg("work") = asked.work, py::arg("threads") = 0,
+          py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+          "As the function of that name in firstcontact/_verify.py, of a text.");
+  }
 }
 
 }  // namespace firstcontact::python

@@ -104,10 +104,19 @@ struct Words<Turning> {
 };
 
 template <>
-struct Words<RunVerdict> {
-  static constexpr const char* kName = "RunVerdict";
-  static constexpr const auto& kWords = kRunVerdictWords;
+struct Words<ProofVerdict> {
+  static constexpr const char* kName = "ProofVerdict";
+  static constexpr const auto& kWords = kProofVerdictWords;
 };
+
+/// Refuses an answer as a condition: `if first_contact(...)` would hold of every answer.
+template <class Type>
+void refuse_as_condition(Type& type) {
+  type.def("__bool__", [](const pybind11::object&) -> bool {
+    throw pybind11::type_error(
+        "an answer is neither true nor false: compare its verdict, as in verdict == \"free\"");
+  });
+}
 
 /// A class of firstcontact/_tuples.py.
 pybind11::object tuple_type(const char* name);
@@ -237,7 +246,7 @@ template <>
 class type_caster<firstcontact::Turning>
     : public firstcontact::python::WordCaster<firstcontact::Turning> {};
 template <>
-class type_caster<firstcontact::RunVerdict>
-    : public firstcontact::python::WordCaster<firstcontact::RunVerdict> {};
+class type_caster<firstcontact::ProofVerdict>
+    : public firstcontact::python::WordCaster<firstcontact::ProofVerdict> {};
 
 }  // namespace pybind11::detail

@@ -13,6 +13,7 @@
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
 #include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
@@ -123,7 +124,7 @@ void require_positive(Number value, const std::string& option) {
 void require_not_negative(double value, const std::string& option) {
   if (!(value >= 0.0)) {
     throw std::invalid_argument("ProjectionOptions::" + option + " must be >= 0, got " +
-                                std::to_string(value));
+                                detail::shortest(value));
   }
 }
 

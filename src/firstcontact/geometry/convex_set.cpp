@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kUp = 1.0 + 0x1p-48;
 void require_size(const char* what, double length) {
   if (!(length >= kLeast && length <= kGreatest)) {
     throw std::invalid_argument(std::string("ConvexSet: ") + what +
-                                " must be in 1e-60 ... 1e60, got " + std::to_string(length));
+                                " must be in 1e-60 ... 1e60, got " + detail::shortest(length));
   }
 }
 

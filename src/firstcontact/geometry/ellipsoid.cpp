@@ -13,6 +13,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/interval.h>
 #include <firstcontact/math/interval_vector.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
@@ -114,7 +115,7 @@ double excess_of(const Mesh& mesh, const Vector3d& radii) {
 
 void require(bool holds, const char* what, double got) {
   if (!(holds && std::isfinite(got))) {
-    throw std::invalid_argument(std::string(what) + ", got " + std::to_string(got));
+    throw std::invalid_argument(std::string(what) + ", got " + detail::shortest(got));
   }
 }
 

@@ -10,13 +10,14 @@
 #include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/detail/enclosing_ring.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
 
 void require(bool holds, const std::string& what, double got) {
   if (!(holds && std::isfinite(got))) {
-    throw std::invalid_argument(what + ", got " + std::to_string(got));
+    throw std::invalid_argument(what + ", got " + detail::shortest(got));
   }
 }
 

@@ -20,6 +20,7 @@
 #include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/math/double_double.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact {
 namespace {
@@ -29,7 +30,7 @@ using detail::vertex_components;
 void require_length(const char* what, double length) {
   if (!(length >= 0.0 && std::isfinite(length))) {
     throw std::invalid_argument(std::string("Shape: ") + what + " must be finite and >= 0, got " +
-                                std::to_string(length));
+                                detail::shortest(length));
   }
 }
 

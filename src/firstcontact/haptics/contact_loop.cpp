@@ -15,6 +15,7 @@
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/haptics/detail/contact_loop_implementation.h>
 #include <firstcontact/haptics/detail/haptic_scene_check.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/query/distance.h>
 
 namespace firstcontact {
@@ -81,7 +82,7 @@ void ContactLoop::Implementation::begin_members() {
       "a tool of one point has no default of \"contact_distance\": give it in metres");
   detail::require_haptic(distance_ >= detail::kLeastContactDistanceOfExtent * extent,
                          "\"contact_distance\" is too small to be proven at coordinates of " +
-                             std::to_string(extent) + " m: give a larger one");
+                             detail::shortest(extent) + " m: give a larger one");
   finder_ = detail::ContactFinder(distance_);
 }
 

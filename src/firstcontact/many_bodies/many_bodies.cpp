@@ -10,6 +10,7 @@
 
 #include <firstcontact/many_bodies/detail/broad_phase.h>
 #include <firstcontact/many_bodies/detail/contact_intervals.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/parallel/detail/workers.h>
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/distance.h>
@@ -182,7 +183,7 @@ void validate(const ManyBodiesOptions& options) {
   detail::validate(options.pair);
   if (!(options.time_resolution > 0.0 && options.time_resolution <= 1.0)) {
     throw std::invalid_argument("ManyBodiesOptions::time_resolution must be in (0, 1], got " +
-                                std::to_string(options.time_resolution));
+                                detail::shortest(options.time_resolution));
   }
 }
 

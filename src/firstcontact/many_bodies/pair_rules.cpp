@@ -5,13 +5,15 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/math/number_text.h>
+
 namespace firstcontact {
 namespace {
 
 double checked(double margin) {
   if (!(margin >= 0.0 && std::isfinite(margin))) {
     throw std::invalid_argument("PairRules: a margin must be finite and >= 0, got " +
-                                std::to_string(margin));
+                                detail::shortest(margin));
   }
   return margin;
 }

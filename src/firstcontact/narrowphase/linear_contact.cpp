@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/narrowphase/detail/turning_gap.h>
 #include <firstcontact/narrowphase/precise_linear_contact.h>
 #include <firstcontact/narrowphase/separating_direction.h>
@@ -239,7 +240,7 @@ LinearContact solve(std::span<const LinearPoint> A, std::span<const LinearPoint>
         std::isfinite(options.tolerance))) {
     throw std::invalid_argument(
         "LinearContactOptions: margin must be finite and >= 0, tolerance finite and > 0, got " +
-        std::to_string(options.margin) + " and " + std::to_string(options.tolerance));
+        detail::shortest(options.margin) + " and " + detail::shortest(options.tolerance));
   }
   const FloatEnvironmentGuard guard;
   return LinearPair(A, B, options).solve();

@@ -14,6 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/record/run.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/scene_files/write_result.h>
@@ -26,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 double finite(double number) {
   if (!std::isfinite(number)) {
-    throw std::invalid_argument("a run holds finite numbers only, got " + std::to_string(number));
+    throw std::invalid_argument("a run holds finite numbers only, got " + detail::shortest(number));
   }
   return number;
 }

@@ -13,6 +13,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/number_text.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/run.h>
@@ -96,7 +97,7 @@ class Verification {
         loaded_(load(header)),
         members_(make_members(header, loaded_)),
         follower_(members_, header.scene, options.scripted_tolerance) {
-    result_.verdict = RunVerdict::proven;
+    result_.verdict = ProofVerdict::proven;
     result_.least_distance = kInfinity;
     result_.pair_counts = loaded_.pair_counts;
     result_.warnings = loaded_.warnings;
@@ -110,11 +111,11 @@ class Verification {
         break;
       }
     }
-    if (result_.verdict == RunVerdict::proven && result_.steps == 0) {
-      stop(RunVerdict::not_proven, "The run has no step.");
+    if (result_.verdict == ProofVerdict::proven && result_.steps == 0) {
+      stop(ProofVerdict::not_proven, "The run has no step.");
     }
     const bool all_apart =
-        result_.verdict == RunVerdict::proven || result_.verdict == RunVerdict::broken;
+        result_.verdict == ProofVerdict::proven || result_.verdict == ProofVerdict::broken;
     result_.least_distance = all_apart ? std::min(result_.least_distance, known()) : 0.0;
     result_.greatest_jump = follower_.greatest_jump();
     result_.scripted_deviation = follower_.scripted_deviation();
@@ -132,12 +133,12 @@ class Verification {
 
   /// After what cannot be proven the rest may still be refuted.
   [[nodiscard]] bool going() const {
-    return result_.verdict == RunVerdict::proven ||
-           (result_.verdict == RunVerdict::not_proven && !ended_);
+    return result_.verdict == ProofVerdict::proven ||
+           (result_.verdict == ProofVerdict::not_proven && !ended_);
   }
 
-  void stop(RunVerdict verdict, std::string problem, std::optional<RunMoment> at = {}) {
-    if (result_.verdict == RunVerdict::not_proven && verdict == RunVerdict::not_proven) {
+  void stop(ProofVerdict verdict, std::string problem, std::optional<RunMoment> at = {}) {
+    if (result_.verdict == ProofVerdict::not_proven && verdict == ProofVerdict::not_proven) {
       return;  // The first one counts.
     }
     result_.verdict = verdict;
@@ -185,7 +186,7 @@ class Verification {
       const std::uint32_t vertex = shape.hierarchy().vertex_index[v];
       const std::optional<bool> inside = is_inside(solid, body, shape.mesh().vertices[vertex]);
       if (inside != false) {
-        stop(inside ? RunVerdict::closer : RunVerdict::not_proven,
+        stop(inside ? ProofVerdict::refuted : ProofVerdict::not_proven,
              names(pair) + (inside ? " are inside each other at the start."
                                    : " may be inside each other at the start."),
              RunMoment{.step = 1, .time = 0.0, .bodies = pair, .distance = 0.0});
@@ -266,11 +267,11 @@ class Verification {
     }
     prove(chunk);
     if (going() && broken) {
-      stop(RunVerdict::broken, *broken);
+      stop(ProofVerdict::broken, *broken);
     } else if (going() && unproven) {
-      stop(RunVerdict::not_proven, *unproven);
+      stop(ProofVerdict::not_proven, *unproven);
     } else if (going() && options_.stop.stop_requested()) {
-      stop(RunVerdict::not_proven, "Stopped before the end of the run.");
+      stop(ProofVerdict::not_proven, "Stopped before the end of the run.");
       ended_ = true;
     }
     return more;
@@ -352,10 +353,10 @@ class Verification {
     }
     RunMoment at = seen;
     at.time = step.begin + found.time;
-    if (found.outcome == CoverOutcome::closer && result_.verdict != RunVerdict::closer) {
-      stop(RunVerdict::closer, names(job.bodies) + " come closer than promised.", at);
+    if (found.outcome == CoverOutcome::closer && result_.verdict != ProofVerdict::refuted) {
+      stop(ProofVerdict::refuted, names(job.bodies) + " come closer than promised.", at);
     } else if (found.outcome == CoverOutcome::not_proven) {
-      stop(RunVerdict::not_proven,
+      stop(ProofVerdict::not_proven,
            "It could not be proven that " + names(job.bodies) + " stay apart as promised.", at);
     }
   }
@@ -376,7 +377,7 @@ RunVerification verify_run(const RunHeader& header,
                            const VerifyRunOptions& options) {
   if (!(options.scripted_tolerance > 0.0)) {
     throw std::invalid_argument("VerifyRunOptions::scripted_tolerance must be > 0, got " +
-                                std::to_string(options.scripted_tolerance));
+                                detail::shortest(options.scripted_tolerance));
   }
   const FloatEnvironmentGuard guard;
   return Verification(header, options).run(next);

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -16,21 +15,11 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/scene/pair_counts.h>
+#include <firstcontact/verification/proof_verdict.h>
 
 namespace firstcontact {
 
 struct RunHeader;
-
-enum class RunVerdict {
-  proven,      ///< Every pair stayed apart all the time, by what each step promised.
-  closer,      ///< Proven: a pair came closer than promised, or into each other.
-  broken,      ///< The record contradicts itself or its scene, such as by a body that jumps.
-  not_proven,  ///< Neither; nothing is known of the moment that is named.
-};
-
-/// Its words in files and in Python, in this order.
-inline constexpr std::array<const char*, 4> kRunVerdictWords{"proven", "closer", "broken",
-                                                             "not_proven"};
 
 struct VerifyRunOptions {
   /// [m]  > 0  The distance that a scripted body may be from where its motion in the scene puts it
@@ -51,14 +40,14 @@ struct RunMoment {
 };
 
 struct RunVerification {
-  RunVerdict verdict = RunVerdict::not_proven;
+  ProofVerdict verdict = ProofVerdict::not_proven;
   std::string problem;                  ///< One sentence; empty where the run is proven.
   std::size_t steps = 0;                ///< Verified; those up to the problem where there is one.
   double time = 0.0;                    ///< [s]  At the end of these.
   double time_lost = 0.0;               ///< [s]  In all of them.
   double least_distance = 0.0;          ///< [m]  Proven of these; infinite where no pair can touch.
   std::optional<RunMoment> closest;     ///< Where bodies come about as close as that.
-  std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
+  std::optional<RunMoment> problem_at;  ///< Of what is refuted or not proven.
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
   /// [m]  No point of a scripted body is farther from where its motion in the scene has it, at any
   /// time. Where a body is behind, that is where its motion had it so much earlier.

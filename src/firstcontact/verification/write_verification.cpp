@@ -102,6 +102,4 @@ const char* word(ProofVerdict verdict) {
   return kProofVerdictWords[static_cast<std::size_t>(verdict)];
 }
 
-const char* word(RunVerdict verdict) { return kRunVerdictWords[static_cast<std::size_t>(verdict)]; }
-
 }  // namespace firstcontact

@@ -10,7 +10,6 @@
 namespace firstcontact {
 
 enum class ProofVerdict;
-enum class RunVerdict;
 struct PathVerification;
 struct PlannedPath;
 struct ResultClaims;
@@ -32,8 +31,5 @@ struct RunVerification;
 
 /// The words of that JSON: proven, refuted, broken, not_proven.
 [[nodiscard]] FIRSTCONTACT_API const char* word(ProofVerdict verdict);
-
-/// The words of that of a run: proven, closer, broken, not_proven.
-[[nodiscard]] FIRSTCONTACT_API const char* word(RunVerdict verdict);
 
 }  // namespace firstcontact

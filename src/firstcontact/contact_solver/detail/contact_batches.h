@@ -101,8 +101,6 @@ class ContactBatches {
                                                         const ContactRows& rows,
                                                         const BatchUnits& units = {});
 
-  [[nodiscard]] std::size_t batch_count() const { return batches_.size(); }
-
   /// The weights of squared lengths of the state: those of impulses, by their changes of velocity.
   [[nodiscard]] State weights() const;
   [[nodiscard]] State state_of(const Projection& projection) const;

@@ -1,17 +1,15 @@
 #include <firstcontact/haptics/detail/contact_finder.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/haptics/detail/constants.h>
-#include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
+#include <firstcontact/query/detail/facing_cell.h>
 #include <firstcontact/query/detail/front_query.h>
 
 namespace firstcontact::detail {
@@ -49,15 +47,10 @@ HapticTouch touch_of(const Contact& contact, double friction) {
 
 /// Of contacts beside each other that face alike the nearest.
 void ContactFinder::keep_nearest_of_many(double width) {
-  using Cell = std::array<std::int64_t, 4>;
-  std::unordered_map<Cell, const Contact*, CellHash> nearest;
+  std::unordered_map<FacingCell, const Contact*, CellHash> nearest;
   for (const Contact* contact : chosen_) {
-    const Vector3d& n = *contact->n_AB_W;
-    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
-    for (int k = 0; k < 3; ++k) {
-      key[static_cast<std::size_t>(k)] = cell_along(contact->p_WA[k], width);
-    }
-    const Contact*& kept = nearest.try_emplace(key, contact).first->second;
+    const FacingCell cell = facing_cell(contact->p_WA, *contact->n_AB_W, width);
+    const Contact*& kept = nearest.try_emplace(cell, contact).first->second;
     if (contact->distance < kept->distance) {
       kept = contact;
     }

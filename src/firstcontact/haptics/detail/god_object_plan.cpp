@@ -270,13 +270,6 @@ ToolDisplacements ToolDisplacements::part(double part) const {
   return made;
 }
 
-bool ToolDisplacements::all_finite() const {
-  return std::ranges::all_of(joints, [](double way) { return std::isfinite(way); }) &&
-         std::ranges::all_of(tools, [](const Displacement& way) {
-           return way.translation.allFinite() && way.rotation_vector.allFinite();
-         });
-}
-
 double product_of(const ToolDisplacements& a, const ToolDisplacements& b, const ToolFrames& frames,
                   std::size_t tools) {
   double product = 0.0;

@@ -36,7 +36,6 @@ struct ToolDisplacements {
 
   /// The same part of each.
   [[nodiscard]] ToolDisplacements part(double part) const;
-  [[nodiscard]] bool all_finite() const;
 };
 
 /// The product of two displacements in the metric of the springs [m^2].

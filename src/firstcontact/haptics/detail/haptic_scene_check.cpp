@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/haptics/contact_set.h>
+#include <firstcontact/math/number_text.h>
 
 namespace firstcontact::detail {
 
@@ -29,8 +30,9 @@ void check_joints(const HapticTool& tool, const std::string& name) {
     const std::string of = name + "joint \"" + joint.name + "\": ";
     require_haptic(std::isfinite(joint.start), of + "its start is not finite");
     require_haptic(joint.lower <= joint.start && joint.start <= joint.upper,
-                   of + "it starts at " + std::to_string(joint.start) + ", outside of its limits " +
-                       std::to_string(joint.lower) + " to " + std::to_string(joint.upper));
+                   of + "it starts at " + detail::shortest(joint.start) +
+                       ", outside of its limits " + detail::shortest(joint.lower) + " to " +
+                       detail::shortest(joint.upper));
     require_haptic(joint.stiffness > 0.0 && std::isfinite(joint.stiffness),
                    of + "its stiffness must be > 0");
   }

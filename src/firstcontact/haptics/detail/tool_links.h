@@ -35,7 +35,6 @@ class ToolLinks {
 
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const HapticJoint> joints() const { return joints_; }
-  [[nodiscard]] std::size_t tool_count() const { return tools_; }
   [[nodiscard]] std::size_t tool_of_joint(std::size_t joint) const { return tool_of_joint_[joint]; }
 
   /// Coordinates of the tools stand first, six each; those of joints follow.
