@@ -1,5 +1,7 @@
 #include "pair_text.h"
 
+#include <utility>
+
 #include <fmt/core.h>
 
 namespace firstcontact::app {
@@ -8,6 +10,18 @@ std::vector<LabelledLine> pair_lines(const PairCounts& counts) {
   std::vector<LabelledLine> lines = {{"tested", pairs_text(counts.tested)}};
   for (const UntestedPairs& pairs : counts.untested) {
     lines.push_back({is_ignored(pairs.why) ? "ignored" : "left out", describe(pairs)});
+  }
+  return lines;
+}
+
+std::vector<LabelledLine> last_proof_lines(const PairCounts& counts,
+                                           const std::vector<std::string>& warnings) {
+  std::vector<LabelledLine> lines = pair_lines(counts);
+  for (const std::string& warning : warnings) {
+    lines.push_back({"warning", warning});
+  }
+  if (std::string warning = no_pair_warning(counts); !warning.empty()) {
+    lines.push_back({"warning", std::move(warning)});
   }
   return lines;
 }

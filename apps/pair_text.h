@@ -19,6 +19,10 @@ struct LabelledLine {
 /// "tested", "ignored" and "left out" with how many, by whom and which.
 [[nodiscard]] std::vector<LabelledLine> pair_lines(const PairCounts& counts);
 
+/// Those lines of a second proof, its warnings, and one where no pair is tested.
+[[nodiscard]] std::vector<LabelledLine> last_proof_lines(const PairCounts& counts,
+                                                         const std::vector<std::string>& warnings);
+
 /// "none of the 3 pairs that were looked at interpenetrates at any time"
 [[nodiscard]] std::string no_penetration_text(const PairCounts& counts);
 

@@ -322,7 +322,7 @@ void require_one_plan(const Arguments& arguments) {
 }
 
 constexpr const char* kPlanFooter = R"(
-Robot, request and surroundings as MoveIt has them:
+Robot, request and environment as MoveIt has them:
     firstcontact plan --robot R.urdf --srdf R.srdf --environment S.yaml --request Q.yaml -o P.json
 
 Exit status: 0 a proven path, 1 none was found in the time, 2 bad input (a start or goal that is not

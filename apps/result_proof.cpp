@@ -49,19 +49,13 @@ class ResultDescription {
       line("left open", fmt::format("the last {:.2g} before t, where a pair is about to touch",
                                     found_.left_open));
     }
-    for (const auto& [label, value] : pair_lines(found_.pair_counts)) {
-      line(label, value);
-    }
     if (!found_.has_digests) {
       line("warning",
            "the result states no digest of its scene: whether the scene or a file has changed is "
            "not known");
     }
-    for (const std::string& warning : found_.warnings) {
-      line("warning", warning);
-    }
-    if (const std::string warning = no_pair_warning(found_.pair_counts); !warning.empty()) {
-      line("warning", warning);
+    for (const auto& [label, value] : last_proof_lines(found_.pair_counts, found_.warnings)) {
+      line(label, value);
     }
     return text_;
   }

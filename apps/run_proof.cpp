@@ -50,14 +50,8 @@ class RunDescription {
     if (run_.is_cut_off()) {
       line("note", "the file ends in the middle of a line, which was left out");
     }
-    for (const auto& [label, value] : pair_lines(found_.pair_counts)) {
+    for (const auto& [label, value] : last_proof_lines(found_.pair_counts, found_.warnings)) {
       line(label, value);
-    }
-    for (const std::string& warning : found_.warnings) {
-      line("warning", warning);
-    }
-    if (const std::string warning = no_pair_warning(found_.pair_counts); !warning.empty()) {
-      line("warning", warning);
     }
     return text_;
   }

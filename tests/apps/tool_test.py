@@ -767,7 +767,7 @@ class Robot(ToolTest):
                  f'{self.robot}: start: expected NAME=POSITION of a joint, got "0"; names of states are those '
                  "of an SRDF"),
                 (["--environment", "none.stl"],
-                 "none.stl: expected surroundings (a mesh, a planning scene in .yaml, or a scene in .json), "
+                 "none.stl: expected an environment (a mesh, a planning scene in .yaml, or a scene in .json), "
                  "found no such file")]:
             self.assert_refused(self.check(*arguments), message)
         self.assert_refused(self.run_tool("check"), "expected a SCENE, or --robot (see firstcontact check --help)")

@@ -223,9 +223,9 @@ TEST_F(QuestionRules, TakesTheRulesOfASceneThatComesFirst) {
   EXPECT_EQ(scene.options.margin, 0.25);
   EXPECT_TRUE(scene.options.lenient);
   EXPECT_EQ(scene.duration, 7.0);  // Nothing else has one.
-  EXPECT_EQ(said(among({"post.off", "room.json"})),
-            at("room.json") +
-                ": expected a scene as the first of the surroundings: its rules go by bodies");
+  EXPECT_EQ(
+      said(among({"post.off", "room.json"})),
+      at("room.json") + ": expected a scene as the first environment: its rules go by bodies");
 }
 
 TEST_F(QuestionRules, SaysWhatAreNoSurroundings) {
@@ -238,14 +238,14 @@ TEST_F(QuestionRules, SaysWhatAreNoSurroundings) {
   EXPECT_EQ(said(among({"group.json"})), at("group.json") + taken);
   EXPECT_EQ(said(among({"none.off"})),
             at("none.off") +
-                ": expected surroundings (a mesh, a planning scene in .yaml, or a "
+                ": expected an environment (a mesh, a planning scene in .yaml, or a "
                 "scene in .json), found no such file");
-  EXPECT_EQ(said(among({"none.json"})), at("none.json") + ": expected surroundings, found none");
+  EXPECT_EQ(said(among({"none.json"})), at("none.json") + ": expected an environment, found none");
   folder_.write("arms.json",
                 R"({"firstcontact": 1, "robots": [{"name": "r", "urdf": "arm.urdf"}]})");
   EXPECT_EQ(
       said(among({"arms.json"})),
-      at("arms.json") + ": expected surroundings without robots, got 1; check this scene itself");
+      at("arms.json") + ": expected an environment without robots, got 1; check this scene itself");
   folder_.write("broken.json", "{\"firstcontact\": 1,\n\"bodies\": [}");
   EXPECT_EQ(said(among({"broken.json"})).substr(0, at("broken.json").size() + 3),
             at("broken.json") + ":2:");

@@ -170,7 +170,7 @@ class SceneBuilder {
       add_mesh(file);
       return;
     }
-    const std::string text = text_of(file, "surroundings");
+    const std::string text = text_of(file, "an environment");
     const detail::JsonValue tree =
         extension == "json" ? detail::parse_json(text, file.string()) : detail::JsonValue();
     if (has_key(tree, "firstcontact")) {
@@ -213,7 +213,7 @@ class SceneBuilder {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
       throw ParseError(file.string(),
-                       "expected surroundings (a mesh, a planning scene in .yaml, or "
+                       "expected an environment (a mesh, a planning scene in .yaml, or "
                        "a scene in .json), found no such file");
     }
     add({.name = file.stem().string(),
@@ -238,13 +238,13 @@ class SceneBuilder {
   /// Its bodies, with their rules and options.
   void add_scene(Scene around, const std::filesystem::path& file) {
     if (!around.robots.empty()) {
-      throw ParseError(file.string(), "expected surroundings without robots, got " +
+      throw ParseError(file.string(), "expected an environment without robots, got " +
                                           std::to_string(around.robots.size()) +
                                           "; check this scene itself");
     }
     if (!scene_.bodies.empty()) {
       throw ParseError(file.string(),
-                       "expected a scene as the first of the surroundings: its rules go by bodies");
+                       "expected a scene as the first environment: its rules go by bodies");
     }
     const auto has_name = [&](const auto& other) { return other.name == robot_name_; };
     if (std::any_of(around.bodies.begin(), around.bodies.end(), has_name) ||
