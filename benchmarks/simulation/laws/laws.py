@@ -52,6 +52,8 @@ ROWS = [
     Row("robot that nothing holds, 3 s", "momenta", "N s", SMOOTH, motion.momenta_of_robot),
     Row("the same", "energy", "J", SMOOTH, motion.energy_of_robot),
     Row("block on a turntable, 2 rad/s, 3 s", "place", "m", SMOOTH, contacts.turntable),
+    Row("the same, speeded up by a robot's motor, 1 s", "place", "m", SMOOTH, contacts.block_on_a_motor),
+    Row("ball rolls over a turntable, 2 rad/s, 3 s", "place", "m", SMOOTH, contacts.ball_on_a_turntable),
     Row("ball slides off a ball, no friction", "energy", "J/kg", SMOOTH, contacts.ball_off_a_ball),
     Row("ball rolls down 17 degrees, 1 s", "place", "m", SMOOTH, contacts.rolling_ball),
     Row("cylinder rolls on the level, 3 s", "velocity", "m/s", SMOOTH, contacts.rolling_cylinder),

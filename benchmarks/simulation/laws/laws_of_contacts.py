@@ -18,6 +18,37 @@ def turntable(tool, step):
     return math.hypot(x - 0.5 * math.cos(6.0), y - 0.5 * math.sin(6.0))
 
 
+def ball_on_a_turntable(tool, step):
+    """How far a ball that rolls over a table at 2 rad/s is from its circle after 3 s, beyond 1e-6 m."""
+    rate, speed = 2 * 2.0 / 7, 0.3
+    table = {"name": "table", "shape": box(4, 4, 0.1), "motion": {
+        "type": "constant_velocity", "from": {"position": [0, 0, -0.05]}, "rotation_vector": [0, 0, 6]}}
+    rolling = body("ball", ball(0.05), (0, 0, 0.05 + NEAR), dynamics={
+        "linear_velocity": [speed, 0, 0], "angular_velocity": [0, speed / 0.05, 0]})
+    run = simulate(tool, scene([table, rolling], 3.0, step, friction=1.0, contact_distance=NEAR))
+    x, y, _ = run.body(1)["position"]
+    angle = 3.0 * rate
+    right = (speed / rate * math.sin(angle), speed / rate * (1 - math.cos(angle)))
+    return max(0.0, math.hypot(x - right[0], y - right[1]) - 1e-6)
+
+
+def block_on_a_motor(tool, step):
+    """How far a block slips in 1 s on a turntable whose motor speeds it up to 2 rad/s, 0.3 m from the axis."""
+    if not is_ours(tool):
+        raise NotForPeer
+    inertial = '<inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    urdf = (f'<robot name="r"><link name="base">{inertial}</link><link name="table">{inertial}<collision><geometry>'
+            '<box size="2 2 0.1"/></geometry></collision></link><joint name="j" type="continuous">'
+            '<parent link="base"/><child link="table"/><axis xyz="0 0 1"/></joint></robot>')
+    robot = {"name": "r", "urdf": "r.urdf", "dynamics": {"base": "fixed", "motors": {
+        "j": {"velocity": [[0, 0], [1, 2]]}}}}
+    block = body("block", box(0.2, 0.2, 0.1), (0.3, 0, 0.1001), dynamics={})
+    run = simulate(tool, scene([block], 1.0, step, friction=1.0, robots=[robot]), [("r.urdf", urdf)])
+    x, y, _ = run.body(0)["position"]
+    angle = run.steps[-1]["robots"][0]["positions"][0]
+    return math.hypot(x - 0.3 * math.cos(angle), y - 0.3 * math.sin(angle))
+
+
 def ball_off_a_ball(tool, step):
     """The greatest change of energy per mass while a ball slides off another one, to 0.7 rad."""
     apart = 1.0  # [m]  Of the centres.
