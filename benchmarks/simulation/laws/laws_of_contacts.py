@@ -32,16 +32,25 @@ def ball_on_a_turntable(tool, step):
     return max(0.0, math.hypot(x - right[0], y - right[1]) - 1e-6)
 
 
-def block_on_a_motor(tool, step):
+def block_by_speeds(tool, step):
     """How far a block slips in 1 s on a turntable whose motor speeds it up to 2 rad/s, 0.3 m from the axis."""
+    return block_on_a_motor(tool, step, {"velocity": [[0, 0], [1, 2]]})
+
+
+def block_by_positions(tool, step):
+    """The same where rows say each 2.5 ms where the table is: its speed jumps there."""
+    return block_on_a_motor(tool, step, {"position": [[0.0025 * k, (0.0025 * k) ** 2] for k in range(401)]})
+
+
+def block_on_a_motor(tool, step, motor):
+    """How far a block slips in 1 s on a turntable that a motor drives, 0.3 m from the axis."""
     if not is_ours(tool):
         raise NotForPeer
     inertial = '<inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     urdf = (f'<robot name="r"><link name="base">{inertial}</link><link name="table">{inertial}<collision><geometry>'
             '<box size="2 2 0.1"/></geometry></collision></link><joint name="j" type="continuous">'
             '<parent link="base"/><child link="table"/><axis xyz="0 0 1"/></joint></robot>')
-    robot = {"name": "r", "urdf": "r.urdf", "dynamics": {"base": "fixed", "motors": {
-        "j": {"velocity": [[0, 0], [1, 2]]}}}}
+    robot = {"name": "r", "urdf": "r.urdf", "dynamics": {"base": "fixed", "motors": {"j": motor}}}
     block = body("block", box(0.2, 0.2, 0.1), (0.3, 0, 0.1001), dynamics={})
     run = simulate(tool, scene([block], 1.0, step, friction=1.0, robots=[robot]), [("r.urdf", urdf)])
     x, y, _ = run.body(0)["position"]

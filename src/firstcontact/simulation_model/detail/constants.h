@@ -238,6 +238,9 @@ inline constexpr double kGreatestPhase = 1.0;
 /// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
 /// the contact distance. Beyond it velocities at the end of a plan lead the robot.
 inline constexpr double kUnseenPlacement = 0.5;
+/// [-]  The same of motors along rows of positions, whose rates jump: what such a robot carries
+/// knows its velocities alone, and slips by as much in each plan.
+inline constexpr double kUnseenJump = 1e-3;
 
 // Ties.
 

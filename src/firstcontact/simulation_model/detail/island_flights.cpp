@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/island_robots.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
@@ -108,6 +110,18 @@ VectorXd IslandRobots::change_by(std::size_t r, const std::vector<LinkImpulse>& 
     }
   }
   return flight.inverse_mass * along;
+}
+
+/// Whether rows of positions lead a coordinate elsewhere than the mean of its velocities does.
+bool IslandRobots::jumps(std::size_t r, const RobotFlight& flight,
+                         const std::vector<double>& drives, const VectorXd& v,
+                         const VectorXd& positions, const PlanSpan& span) const {
+  const std::vector<PlacedCoordinate> placed = placed_coordinates(
+      robots_[r].robot->laws, flight.drives, drives, robots_[r].state, flight.rule, span, v);
+  return std::ranges::any_of(placed, [&](const PlacedCoordinate& coordinate) {
+    return coordinate.is_along_rows && std::abs(coordinate.at - positions[coordinate.position]) >
+                                           kUnseenJump * model_.distances.least;
+  });
 }
 
 /// The flight of inertia alone, and drives by the end of the span.

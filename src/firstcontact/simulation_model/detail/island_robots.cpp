@@ -274,10 +274,11 @@ std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
     }
     if (!led[r] && touches[r]) {
       const VectorXd& v = solution.mechanisms[r];
-      const VectorXd way =
-          placement(r, flights[r], drives, v, mean_positions(r, flights[r], v, span.length), span);
-      led[r] =
-          way.size() > 0 && way.cwiseAbs().maxCoeff() > kUnseenPlacement * model_.distances.least;
+      const VectorXd positions = mean_positions(r, flights[r], v, span.length);
+      const VectorXd way = placement(r, flights[r], drives, v, positions, span);
+      led[r] = (way.size() > 0 &&
+                way.cwiseAbs().maxCoeff() > kUnseenPlacement * model_.distances.least) ||
+               jumps(r, flights[r], drives, v, positions, span);
     }
   }
   return led;

@@ -296,6 +296,9 @@ class IslandRobots {
                                           const Eigen::VectorXd& v,
                                           const Eigen::VectorXd& positions,
                                           const PlanSpan& span) const;
+  [[nodiscard]] bool jumps(std::size_t robot, const RobotFlight& flight,
+                           const std::vector<double>& drives, const Eigen::VectorXd& v,
+                           const Eigen::VectorXd& positions, const PlanSpan& span) const;
   [[nodiscard]] const LinkPlace& place_of(std::size_t member) const;
 
   const SimulationModel& model_;

@@ -412,7 +412,10 @@ std::vector<PlacedCoordinate> placed_coordinates(const std::vector<JointLaw>& la
                         !law.motor->stiffness && reaches_target(drives[k], impulses[k]);
     const Coordinate c = coordinate_of(law, state, rule);
     if (is_led) {
-      placed.push_back({law.velocity, law.position, goal(law, c.q, span)});
+      const bool is_along_rows =
+          law.motor->kind == JointMotor::Kind::position &&
+          target_at(law, span.from).number != target_at(law, span.to()).number;
+      placed.push_back({law.velocity, law.position, goal(law, c.q, span), is_along_rows});
     } else if (c.weight > 0.5) {
       placed.push_back(
           {law.velocity, law.position, c.origin + span.length * c.weight * u[law.velocity]});

@@ -94,6 +94,8 @@ struct PlacedCoordinate {
   Eigen::Index velocity = 0;  ///< Of the mechanism's velocities,
   Eigen::Index position = 0;  ///< and positions.
   double at = 0.0;            ///< [rad or m]
+  /// Whether the rows of a motor lead it from one position to another.
+  bool is_along_rows = false;
 };
 
 /// The coordinates whose positions at the end of a span are not those of the mean of velocities.
