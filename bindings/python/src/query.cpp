@@ -35,6 +35,15 @@ namespace {
 const std::uint64_t kAllSteps = WorkBudget{}.steps;
 const std::size_t kMemory = WorkBudget{}.memory;
 
+/// @param deadline  [s]  from now
+WorkBudget budget_of(std::optional<std::uint64_t> steps, std::size_t memory,
+                     std::optional<double> deadline) {
+  return {.steps = steps.value_or(kAllSteps),
+          .memory = memory,
+          .deadline = deadline_in(deadline),
+          .stop = {}};
+}
+
 FirstContactResult ask_first_contact(const py::object& A, const py::object& B,
                                      PairWorkspace* workspace, FirstContactOptions options,
                                      const std::stop_source* stop) {
@@ -60,10 +69,7 @@ void bind_pair_questions(py::module_& m) {
                                   .start_contacts = start_contacts,
                                   .contacts = contacts,
                                   .contact_band = contact_band,
-                                  .budget = {.steps = steps.value_or(kAllSteps),
-                                             .memory = memory,
-                                             .deadline = deadline_in(deadline),
-                                             .stop = {}}},
+                                  .budget = budget_of(steps, memory, deadline)},
                                  stop);
       },
       py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
@@ -91,10 +97,7 @@ Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.)");
         const GivenShape a = given_shape_from(A, "A");
         const GivenShape b = given_shape_from(B, "B");
         ClosestApproachOptions options{.tolerance = tolerance,
-                                       .budget = {.steps = steps.value_or(kAllSteps),
-                                                  .memory = memory,
-                                                  .deadline = deadline_in(deadline),
-                                                  .stop = {}}};
+                                       .budget = budget_of(steps, memory, deadline)};
         Lease<Workspace> lease(workspace);
         return run_query(stop, [&](const QueryStop& query) {
           options.budget.stop = query.token();
@@ -163,10 +166,7 @@ ManyBodiesOptions set_options(double tolerance, StartContacts start_contacts, Co
                    .start_contacts = start_contacts,
                    .contacts = contacts,
                    .contact_band = contact_band,
-                   .budget = {.steps = steps.value_or(kAllSteps),
-                              .memory = memory,
-                              .deadline = deadline_in(deadline),
-                              .stop = {}}}};
+                   .budget = budget_of(steps, memory, deadline)}};
 }
 
 void bind_set_questions(py::module_& m) {

@@ -105,7 +105,7 @@ class RobotTimeline {
   [[nodiscard]] const RobotScene& scene() const { return scene_; }
 
   [[nodiscard]] std::span<const BoundedGeometry> geometries() const { return geometries_; }
-  /// Of a tested pair: those of the first member with those of the second one.
+  /// The geometries of the first member of a pair, and those of the second one, to test together.
   [[nodiscard]] GeometryPairs geometry_pairs(const TestedPair& pair) const {
     const auto [first, second] = pair.members;
     return {first_geometry_[first], first_geometry_[first + 1], first_geometry_[second],

@@ -228,8 +228,8 @@ inline constexpr double kAtLimit = 1e-9;
 /// yields as little has no solution together with it, and then neither law is kept.
 inline constexpr double kMostBeyondLimit = 1e-3;
 
-/// [-]  Links that a plan left on the chords of their ways get to where their joints have them in
-/// this part of a step, or later. Smaller: contacts answer that way with velocities.
+/// [-]  A plan leaves links on the chords of their ways. They need at least this part of a step to
+/// get back to their joints. Smaller: contacts answer that way with velocities.
 inline constexpr double kSpanOfDrift = 0.1;
 
 /// [rad]  Springs that swing on by more in a span are damped.
