@@ -106,14 +106,19 @@ std::string csv_name(const std::string& name) {
 
 std::string write_csv(const TimedMotion& motion) {
   std::string text = "time";
-  const auto add_header = [&](bool is_there, const char* ending) {
+  const auto add_header = [&](const char* ending) {
     for (const std::string& name : motion.joint_names) {
-      text += is_there ? "," + csv_name(name + ending) : "";
+      text += ',';
+      text += csv_name(name + ending);
     }
   };
-  add_header(true, "");
-  add_header(motion.has_velocities(), ".velocity");
-  add_header(motion.has_accelerations(), ".acceleration");
+  add_header("");
+  if (motion.has_velocities()) {
+    add_header(".velocity");
+  }
+  if (motion.has_accelerations()) {
+    add_header(".acceleration");
+  }
   text += '\n';
   for (const TimedPoint& point : motion.points) {
     text += decimal_seconds(point.time);
