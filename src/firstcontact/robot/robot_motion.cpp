@@ -68,7 +68,8 @@ void require_match(const Joint& joint, const JointMotion& motion) {
 }
 
 /// The segment that holds a window of time, which none of its ends divides.
-const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, double t_end) {
+const CoordinateSegment& segment_of(const CoordinatePath& path, [[maybe_unused]] double t_begin,
+                                    double t_end) {
   const auto ends_before = [](const CoordinateSegment& s, double t) { return s.t_end < t; };
   const auto found =
       std::lower_bound(path.segments().begin(), path.segments().end(), t_end, ends_before);
