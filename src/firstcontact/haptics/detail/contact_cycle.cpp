@@ -146,6 +146,7 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   now_ = 0.0;
   wait_from_.reset();
   may_part_ = true;
+  share_of_courses_ = 1.0;
   cycle_.index += 1;
   cycle_.asked = dt;
   cycle_.lasted = 0.0;
@@ -229,9 +230,7 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
   publish(stamp_ns);
 }
 
-const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& targets, double dt,
-                                                        std::int64_t stamp_ns,
-                                                        const std::optional<Deadline>& deadline) {
+void ContactLoop::Implementation::require_targets(const HapticTargets& targets, double dt) const {
   detail::require_haptic(targets.poses.size() == tools(), "a target for each tool was expected");
   detail::require_haptic(targets.joints.empty() || targets.joints.size() == joints_.size(),
                          "a target for each joint was expected, or none");
@@ -242,62 +241,93 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
   for (const double target : targets.joints) {
     detail::require_haptic(std::isfinite(target), "the target of a joint is not finite");
   }
+}
+
+/// Whether the plan of a round brings the tools nearer to `ways` by more than a round is worth.
+bool ContactLoop::Implementation::gains(const detail::GodObjectPlan& plan,
+                                        const detail::ToolDisplacements& ways) const {
+  const bool is_further = cycle_.rounds > 1 && !is_parting_;
+  const double enough = is_further ? options_.least_gain * gain_of(ways) : 0.0;
+  return gain_of(plan.displacements) > std::max(least_gain(), enough);
+}
+
+/// The next round moves courses by a smaller share of its time, or lets them wait.
+void ContactLoop::Implementation::slow_courses() {
+  share_of_courses_ *= detail::kShareWithoutRoom;
+  if (share_of_courses_ < detail::kLeastShareOfCourses) {
+    begin_wait();
+  }
+}
+
+/// Whether a further round may bring the tools nearer to their targets.
+///
+/// @param made    [-]  the part of the plan that was proven and executed
+/// @param is_end  whether the plan was to go on to the end of the cycle
+bool ContactLoop::Implementation::goes_on_after(const detail::GodObjectPlan& plan, double made,
+                                                bool is_end) {
+  // Among bodies that move, a plan to the end of the cycle is the last one.
+  const bool is_last_plan = are_courses_moving_ && is_end;
+  const bool is_there = made == 1.0 && !plan.is_shortened && (!plan.is_pressed || is_last_plan);
+  cycle_.is_converged = is_there;
+  if (is_parting_ && made == 0.0) {  // The way of the device may lead out nevertheless.
+    may_part_ = false;
+    return true;
+  }
+  if (are_courses_moving_) {
+    return made > 0.0;
+  }
+  return !is_there && made * gain_of(plan.displacements) > 1e-3 * least_gain();
+}
+
+/// Makes one plan and executes it as far as it is proven free. Returns whether another may gain.
+bool ContactLoop::Implementation::make_round(const HapticTargets& targets, double dt,
+                                             const std::optional<Deadline>& deadline) {
+  const double left = dt - now_;
+  find_contacts();
+  ++cycle_.rounds;
+  const bool is_last = cycle_.rounds == options_.rounds;
+  const double straight = straight_slot(left);
+  const double share = are_courses_moving_ ? share_of_courses_ : 1.0;
+  double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
+  set_courses(slot);
+  const detail::ToolDisplacements ways = wanted(targets);
+  detail::GodObjectPlan plan = plan_round(ways);
+  const bool is_worth = gains(plan, ways);
+  if (!is_worth && !are_courses_moving_) {
+    cycle_.is_converged = true;
+    return false;
+  }
+  if (!is_worth && slot < straight && share_of_courses_ == 1.0) {  // Only courses are left: all.
+    slot = straight;
+    set_courses(slot);
+    plan = plan_within_turn(ways);
+  }
+  if (are_courses_moving_ &&
+      !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
+    slow_courses();
+    return true;
+  }
+  if (touches_.empty() && !is_last && plan.part < 1.0) {  // The rest has time of its own.
+    slot *= plan.part;
+    set_courses(slot);
+  }
+  const double made = execute(plan, slot, dt, deadline);
+  return goes_on_after(plan, made, slot == left);
+}
+
+const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& targets, double dt,
+                                                        std::int64_t stamp_ns,
+                                                        const std::optional<Deadline>& deadline) {
+  require_targets(targets, dt);
   const FloatEnvironmentGuard guard;
   begin_cycle(dt);
-  const double least_gain = detail::kLeastGain * distance_;
   bool goes_on = true;
-  double part = 1.0;  // Of the time that courses go on in a round.
-  for (std::size_t round = 0; round < options_.rounds && now_ < dt && goes_on; ++round) {
-    if (deadline && round > 0 && std::chrono::steady_clock::now() >= *deadline) {
+  while (goes_on && cycle_.rounds < options_.rounds && now_ < dt) {
+    if (deadline && cycle_.rounds > 0 && std::chrono::steady_clock::now() >= *deadline) {
       cycle_.is_late = true;
       break;
     }
-    const double left = dt - now_;
-    find_contacts();
-    const bool is_last = round + 1 == options_.rounds;
-    const double straight = straight_slot(left);
-    const double share = are_courses_moving_ ? part : 1.0;
-    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
-    set_courses(slot);
-    const detail::ToolDisplacements ways = wanted(targets);
-    detail::GodObjectPlan plan = plan_round(ways);
-    ++cycle_.rounds;
-    const bool is_further = round > 0 && !is_parting_;
-    const double enough = is_further ? options_.least_gain * gain_of(ways) : 0.0;
-    const bool gains = gain_of(plan.displacements) > std::max(least_gain, enough);
-    if (!gains && !are_courses_moving_) {
-      cycle_.is_converged = true;
-      break;
-    }
-    if (!gains && slot < straight && part == 1.0) {  // Only the courses are left: all of them.
-      slot = straight;
-      set_courses(slot);
-      plan = plan_within_turn(ways);
-    }
-    if (are_courses_moving_ &&
-        !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
-      part *= detail::kShareWithoutRoom;
-      if (part < detail::kLeastShareOfCourses) {
-        begin_wait();
-      }
-      continue;
-    }
-    if (touches_.empty() && !is_last && plan.part < 1.0) {  // The rest has time of its own.
-      slot *= plan.part;
-      set_courses(slot);
-    }
-    const double made = execute(plan, slot, dt, deadline);
-    // Among bodies that move, a plan to the end of the cycle is the last one.
-    const bool is_last_plan = are_courses_moving_ && slot == left;
-    const bool is_there = made == 1.0 && !plan.is_shortened && (!plan.is_pressed || is_last_plan);
-    cycle_.is_converged = is_there;
-    goes_on = made * gain_of(plan.displacements) > 1e-3 * least_gain ||
-              (are_courses_moving_ && made > 0.0);
-    goes_on = goes_on && !(is_there && !are_courses_moving_);
-    if (is_parting_ && made == 0.0) {  // The way of the device may lead out nevertheless.
-      may_part_ = false;
-      goes_on = true;
-    }
+    goes_on = make_round(targets, dt, deadline);
   }
   rest_until(dt);
   end_cycle(dt, stamp_ns);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
@@ -100,6 +101,15 @@ class ContactLoop::Implementation {
   double execute_piece(const detail::ToolDisplacements& ways, double slot, double dt,
                        const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);
+  void require_targets(const HapticTargets& targets, double dt) const;
+  [[nodiscard]] bool gains(const detail::GodObjectPlan& plan,
+                           const detail::ToolDisplacements& ways) const;
+  /// [m]  A smaller gain is not made.
+  [[nodiscard]] double least_gain() const { return detail::kLeastGain * distance_; }
+  void slow_courses();
+  [[nodiscard]] bool goes_on_after(const detail::GodObjectPlan& plan, double made, bool is_end);
+  [[nodiscard]] bool make_round(const HapticTargets& targets, double dt,
+                                const std::optional<Deadline>& deadline);
   void begin_wait();
   void rest_until(double dt);
   void end_cycle(double dt, std::int64_t stamp_ns);
@@ -134,6 +144,7 @@ class ContactLoop::Implementation {
   bool is_parting_ = false;      // The plan only parts.
   double rest_clearance_ = 0.0;  // [m]  Proven where the members are.
   bool are_courses_moving_ = false;
+  double share_of_courses_ = 1.0;         // [-]  Of the time of a round; less without room.
   double now_ = 0.0;                      // [s]  Since the cycle began.
   std::optional<double> wait_from_ = {};  // [s]  Since then; where courses wait from then on.
   HapticCycle cycle_;
