@@ -12,7 +12,7 @@
 
 namespace firstcontact {
 
-/// The mass and the rotational inertia of a body, and its locked axes, which are the world's.
+/// The mass and the rotational inertia of a body, and its locked axes. These are axes of the world.
 struct Inertia {
   double mass = 1.0;                                        ///< [kg]  > 0
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();           ///< [m]  Centre of mass.
@@ -24,35 +24,38 @@ struct Inertia {
 /// The pose and the velocity of a body.
 struct RigidState {
   Pose X_WB;
-  Eigen::Vector3d v_WC = Eigen::Vector3d::Zero();  ///< [m/s]  Of the centre of mass.
-  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< [rad/s]
+  Eigen::Vector3d v_WC = Eigen::Vector3d::Zero();  ///< [m/s]  Velocity of the centre of mass.
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< [rad/s]  Angular velocity.
 };
 
 /// The inverse of the kinetic metric on velocities (v_WC, w_WB), in world axes.
 ///
-/// Motion that locked axes do not allow has inverse mass 0. All zero: a body that nothing moves.
+/// Locked directions have inverse mass 0. A body that nothing moves has zeros only.
 struct InverseInertia {
   Eigen::Vector3d mass = Eigen::Vector3d::Zero();      ///< [1/kg]  Diagonal.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();  ///< [1/(kg m^2)]
 };
 
+/// [m]  The centre of mass in the world, p_WC.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d centre_of_mass(const Inertia& inertia,
-                                                              const Pose& X_WB);  ///< [m]  p_WC
+                                                              const Pose& X_WB);
 
 /// [kg m^2]  The rotational inertia about C, in world axes.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Matrix3d rotational_inertia(const Inertia& inertia,
                                                                   const Pose& X_WB);
 
+/// The inverse inertia of a body at a pose, in world axes.
 [[nodiscard]] FIRSTCONTACT_API InverseInertia inverse_inertia(const Inertia& inertia,
                                                               const Pose& X_WB);
 
+/// [J]  The kinetic energy of a body.
 [[nodiscard]] FIRSTCONTACT_API double kinetic_energy(const Inertia& inertia,
-                                                     const RigidState& state);  ///< [J]
+                                                     const RigidState& state);
 
-/// Whether an axis of rotation is locked.
+/// Whether at least one axis of rotation is locked.
 [[nodiscard]] FIRSTCONTACT_API bool is_locked(const Inertia& inertia);
 
-/// Whether every axis is a principal one, to 1e-9 of the moments: then nothing gyroscopic acts.
+/// Whether every axis is a principal one, to 1e-9 of the moments. Then no gyroscopic moment acts.
 [[nodiscard]] FIRSTCONTACT_API bool is_isotropic(const Inertia& inertia);
 
 /// [rad/s]  The angular velocity of a body after a turn that carries the velocity along.
@@ -64,28 +67,28 @@ struct InverseInertia {
                                                             const Eigen::Vector3d& w_WB,
                                                             const Eigen::Vector3d& rotation_vector);
 
-/// [rad/s^2]  The rate at which the angular velocity changes without torque, by gyroscopic moments
-/// alone.
+/// [rad/s^2]  The angular acceleration without torque, by gyroscopic moments alone.
 ///
-/// Euler's equation gives it, I dw/dt = (I w) x w. It is 0 where locked axes do not let the
-/// velocity change.
+/// Euler's equation gives it, I dw/dt = (I w) x w. It is 0 where locked axes keep the velocity
+/// fixed.
 [[nodiscard]] FIRSTCONTACT_API double tumbling_acceleration(const Inertia& inertia,
                                                             const RigidState& state);
 
 /// The turn of a body over a time without contacts.
 struct FreeTurn {
-  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Over the time.
-  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();             ///< [rad/s]  At its end.
+  /// [rad]  The turn over the whole time.
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< [rad/s]  The angular velocity at its end.
 };
 
 /// Computes how a body turns over a time without contacts.
 ///
-/// The angular momentum and the energy are kept to rounding, but for what the torque adds. Where
+/// The angular momentum and the energy are kept to rounding, but for the work of the torque. Where
 /// axes are locked, the error of the energy is of second order.
 ///
-/// The body gets from the first to the last orientation by one rotation at a constant rate: of
-/// those between the two, the one nearest to the mean angular velocity. Where axes are locked it
-/// turns by that mean, which is about none of them.
+/// The answer is one rotation at a constant rate from the first orientation to the last. Among the
+/// rotations between the two, it is the one nearest to the mean angular velocity. Where axes are
+/// locked, the body turns by that mean, which has no component about locked axes.
 ///
 /// Method: the implicit midpoint rule for the angular velocity in the body's axes, in sub-steps of
 /// at most 0.04 rad. The rule keeps the length of the momentum; a turn of the body keeps its
