@@ -31,15 +31,15 @@ using Configuration = std::vector<double>;
 
 /// One number of a configuration of joints.
 struct SpaceCoordinate {
-  std::string name;          ///< As trajectories call it; ROBOT/NAME where several robots move.
-  double lower = 0.0;        ///< [rad or m]  Samples lie between these two.
-  double upper = 0.0;        ///< [rad or m]
+  std::string name;    ///< The name that trajectories use; ROBOT/NAME where several robots move.
+  double lower = 0.0;  ///< [rad or m]  Least value of a sample.
+  double upper = 0.0;  ///< [rad or m]  Greatest value of a sample.
   bool has_limits = true;    ///< Whether configurations beyond the two are refused.
-  bool slides = false;       ///< Along an axis, in place of turning.
-  bool turns_short = false;  ///< Edges take the way of at most half a turn: Turning::shortest.
-  std::size_t mover = 0;     ///< Of the space.
-  std::size_t joint = 0;     ///< Of the mover's model.
-  std::size_t index = 0;     ///< Of the coordinate in it; up to 2 for planar joints.
+  bool slides = false;       ///< Whether it moves along an axis, in place of turning.
+  bool turns_short = false;  ///< Whether edges turn by at most half a turn: Turning::shortest.
+  std::size_t mover = 0;     ///< Index of the mover in the space.
+  std::size_t joint = 0;     ///< Index of the joint in the mover's model.
+  std::size_t index = 0;     ///< Index of the coordinate in the joint; up to 2 for planar joints.
 };
 
 /// The edges of a body.
@@ -49,12 +49,12 @@ enum class BodyEdges {
 };
 
 /// The movers of a plan: their coordinates, their motions along an edge, the distance of two
-/// places.
+/// places. Immutable.
 ///
 /// A mover is a robot, or the only body. An edge takes every coordinate of joints from its first
 /// number to its second one at a constant rate. A body moves its origin on a line and turns at a
-/// constant rate by the shortest rotation, or moves on a screw: BodyEdges. All else that a robot
-/// has rests. Immutable.
+/// constant rate by the shortest rotation, or moves on a screw: BodyEdges. All other joints of a
+/// robot rest.
 class FIRSTCONTACT_API ConfigurationSpace {
  public:
   /// Makes the space of some coordinates of a robot; the other ones rest where `held` has them.
@@ -63,7 +63,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// one turn.
   ///
   /// @param names  of coordinates, as find_coordinate() takes them; at least one
-  /// @param held   every joint that moves, at rest; its place does not matter for the names
+  /// @param held   every joint that moves, at rest; the names may be among them
   /// @throws std::invalid_argument  names the joint: unknown, fixed, mimicking another, named
   ///         twice, or not held
   static ConfigurationSpace of_joints(RobotModel model, std::span<const std::string> names,
@@ -91,7 +91,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   static ConfigurationSpace joined(std::span<const std::string> names,
                                    std::span<const ConfigurationSpace> spaces);
 
-  /// Numbers of a configuration; 7 for a body.
+  /// The count of numbers of a configuration; 7 for a body.
   [[nodiscard]] std::size_t size() const { return is_body_ ? 7 : coordinates_.size(); }
   [[nodiscard]] bool is_body() const { return is_body_; }
   /// Whether edges are screws of a body.
@@ -104,8 +104,10 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// The coordinates of joints; empty for a body.
   [[nodiscard]] std::span<const SpaceCoordinate> coordinates() const { return coordinates_; }
 
-  /// A reason why something is no configuration of the space, with the name of the coordinate; none
-  /// where it is one. Beyond a limit by no more than 1e-9 is within it.
+  /// Finds why `q` is no configuration of the space, and names the coordinate; none where `q` is
+  /// one.
+  ///
+  /// A number beyond a limit by at most 1e-9 counts as within it.
   [[nodiscard]] std::optional<std::string> defect(const Configuration& q) const;
 
   /// Whether a place is where samples lie: a body in its box, joints with limits within these.
@@ -113,23 +115,24 @@ class FIRSTCONTACT_API ConfigurationSpace {
 
   /// The length of an edge.
   ///
-  /// That of joints is Euclid's [rad and m alike]. That of a body is the way of its origin plus its
-  /// reach times the angle [m].
+  /// For joints it is the Euclidean length [rad and m alike]. For a body it is the path length of
+  /// its origin plus its reach times the angle [m].
   [[nodiscard]] double distance(const Configuration& from, const Configuration& to) const;
 
-  /// The place at a share of an edge, rounded to doubles; bit for bit an end for a share of 0 or 1.
+  /// The place at a share of an edge, rounded to doubles. Bit for bit an end for a share of 0 or 1.
   [[nodiscard]] Configuration interpolate(const Configuration& from, const Configuration& to,
                                           double share) const;
 
-  /// [m]  A bound of how far any point of an edge's piece between rounded places may be from the
-  /// edge itself. Infinite for screws, whose axes may be far away, and for half a turn of a body: a
-  /// piece of it may take the other way. The errors of several movers are added up, as two of them
-  /// may be a pair.
+  /// [m]  A bound of the distance between an edge and its pieces through rounded places.
   ///
-  /// Positions count once. Angles count with the length of what they turn: the reach of a body, or
-  /// a robot drawn out.
+  /// It holds for every point of the movers. It is infinite for screws, whose axes may be far away.
+  /// It is infinite for half a turn of a body too: a piece of it may turn the other way. The errors
+  /// of several movers are added up, as two of them may be a pair.
   ///
-  /// @param carried  [m]  how far what the robot holds reaches from the links that hold it
+  /// Positions count once. Angles count with the length that they turn: the reach of a body, or the
+  /// stretched-out length of a robot.
+  ///
+  /// @param carried  [m]  how far a body that the robot holds reaches from the links that hold it
   [[nodiscard]] double rounding_bound(const Configuration& from, const Configuration& to,
                                       double carried = 0.0) const;
 
@@ -145,39 +148,41 @@ class FIRSTCONTACT_API ConfigurationSpace {
 
   /// [s]  The least time for an edge at given speeds.
   ///
-  /// @param speeds  [rad/s or m/s]  of each coordinate; of a body two: of its origin [m/s], and of
-  ///                its turn [rad/s]
+  /// @param speeds  [rad/s or m/s]  of each coordinate; for a body two: of its origin [m/s], and of
+  /// its turn [rad/s]
   [[nodiscard]] double travel_time(const Configuration& from, const Configuration& to,
                                    std::span<const double> speeds) const;
 
-  /// A place drawn evenly: within the limits; of poses within the box, turned in any way.
+  /// Draws a place evenly: joints within their limits; poses within the box, turned in any way.
   [[nodiscard]] Configuration sample(RandomNumbers& random) const;
 
-  /// [m]  Corners of the box in which the origin of a body is sampled; 0 of joints.
+  /// [m]  The lower corner of the box in which the origin of a body is sampled; 0 for joints.
   [[nodiscard]] const Eigen::Vector3d& low() const { return low_; }
+  /// [m]  The upper corner of that box; 0 for joints.
   [[nodiscard]] const Eigen::Vector3d& high() const { return high_; }
 
-  /// Whether the place of a body is in the box in which it is sampled; true of joints.
+  /// Whether the origin of a body is in the box in which it is sampled; true for joints.
   [[nodiscard]] bool is_in_box(const Configuration& q) const;
 
-  /// Widens what is sampled of joints without limits, so that it holds a configuration.
+  /// Widens the sampled range of joints without limits, so that it holds a configuration.
   void include(const Configuration& q);
 
-  /// Sets the limits of a coordinate of joints, within its own where it has some.
+  /// Sets the limits of a coordinate of joints, within its own limits where it has some.
   ///
   /// @param name  of the coordinate
   /// @throws std::invalid_argument if the space has no such coordinate, or lower > upper, or one of
   ///         them is not finite
   void set_limits(const std::string& name, double lower, double upper);
 
-  /// The name of a coordinate that slides without limits, so that nothing can be drawn from it.
+  /// Finds the name of a coordinate that slides without limits; no sample can be drawn from it.
   [[nodiscard]] std::optional<std::string> unbounded() const;
 
  private:
   struct Mover {
     RobotModel model;
-    double reach = 0.0;  // [m]  Of a body from its origin; of a robot, how long it can be.
-    std::optional<RobotMotion> rest;  // Of a robot, with every joint held.
+    // [m]  The reach of a body from its origin; the stretched-out length of a robot.
+    double reach = 0.0;
+    std::optional<RobotMotion> rest;  // The motion of a robot with every joint held.
   };
 
   ConfigurationSpace() = default;
@@ -187,7 +192,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   [[nodiscard]] Motion body_motion(const Configuration& from, const Configuration& to) const;
 
   std::vector<Mover> movers_;
-  std::vector<SpaceCoordinate> coordinates_;  // Those of a mover together.
+  std::vector<SpaceCoordinate> coordinates_;  // The coordinates of one mover stand together.
   bool is_body_ = false;
   BodyEdges edges_ = BodyEdges::straight;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();   // [m]

@@ -19,30 +19,33 @@ namespace firstcontact {
 
 /// A frame of a link that is to be at a pose.
 struct LinkPoseGoal {
-  std::size_t link = 0;              ///< Of the mover's model.
-  std::size_t mover = 0;             ///< Of the space; the others stay where they start.
-  Pose X_LT = {};                    ///< The frame T, fixed in the link.
-  Pose X_WT = {};                    ///< Where T is to be.
+  std::size_t link = 0;   ///< The link, in the mover's model.
+  std::size_t mover = 0;  ///< The mover, in the space; the other movers stay where they start.
+  Pose X_LT = {};         ///< The frame T, fixed in the link.
+  Pose X_WT = {};         ///< The pose that T shall have.
   double position_tolerance = 1e-6;  ///< [m]  > 0
   double rotation_tolerance = 1e-6;  ///< [rad]  > 0; pi or more: any rotation will do.
 };
 
-/// A place of the joints, and how far T is from its pose there.
+/// A place of the joints, and the errors of T's pose there.
 struct ReachedPose {
   Configuration q;
   double position_error = 0.0;  ///< [m]  An upper bound, rounding included.
-  double rotation_error = 0.0;  ///< [rad]  So, too: of the rotation between the two.
+  /// [rad]  An upper bound of the angle between the two rotations, rounding included.
+  double rotation_error = 0.0;
 };
 
+/// The options of reach_pose().
 struct ReachOptions {
-  std::size_t places = 8;   ///< At most so many are found.
-  std::size_t tries = 300;  ///< Places from which the search begins: the start, then random ones.
-  /// Whether a place will do, such as one that is free; others are passed over. All, where empty.
+  std::size_t places = 8;  ///< Most places that are found.
+  /// Number of places at which the search begins: the start, then random ones.
+  std::size_t tries = 300;
+  /// Whether a place is acceptable, such as a free one; others are passed over. All, where empty.
   std::function<bool(const Configuration&)> accepts = {};
   std::uint64_t seed = 1;
   std::optional<std::chrono::steady_clock::time_point> deadline =
-      {};                     ///< Ends with what was found.
-  std::stop_token stop = {};  ///< So, too.
+      {};                     ///< Time at which the search ends with the places found so far.
+  std::stop_token stop = {};  ///< Ends the search in the same way.
 };
 
 /// Finds places that bring a link to a pose, within all limits; those nearest to the start first.
@@ -51,13 +54,13 @@ struct ReachOptions {
 /// formulations and damped least-squares methods", IEEE Transactions on Systems, Man, and
 /// Cybernetics 16 (1986)), from the start and from random places. Coordinates that would leave
 /// their limits are held there while the others go on. Where the pose itself is not reached, a
-/// second search heads for its tolerances alone. The result is the same for a seed. No place that
-/// is found says nothing: there may be one.
+/// second search heads for its tolerances alone. The result is the same for a seed. An empty result
+/// proves nothing: there may be a place.
 ///
 /// @param start  a configuration of the space
 /// @returns  places with both errors within the tolerances. No two are closer than 1e-3 by the
-///           space's length. Without any, accepted or not: the nearest one, whose errors are
-///           larger. Empty where none was accepted, and where the time was over before the first.
+/// space's length. Where no place reaches the pose, accepted or not: the nearest one, whose errors
+/// are larger. Empty where none was accepted, and where the time was over before the first.
 /// @throws std::invalid_argument for the space of a body, an unknown link, a start of another size,
 ///         a pose that is not finite or has a zero quaternion, or a tolerance that is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(
