@@ -1,5 +1,5 @@
 /// @file
-/// Reads the surroundings and the question of a motion planner: MoveIt's planning scenes and
+/// Reads the environment and the question of a motion planner: MoveIt's planning scenes and
 /// requests, as YAML or JSON.
 
 #pragma once
@@ -24,7 +24,8 @@ namespace firstcontact {
 struct AllowedCollisions {
   /// Names of links and objects, first < second, and whether the matrix allows them to touch.
   std::map<std::array<std::string, 2>, bool> entries;
-  std::map<std::string, bool> defaults;  ///< Of names against all that no entry speaks of.
+  /// The default of a name, against all names without an entry.
+  std::map<std::string, bool> defaults;
 
   [[nodiscard]] FIRSTCONTACT_API bool allows(const std::string& name,
                                              const std::string& other) const;
@@ -35,39 +36,40 @@ struct AttachedObject {
   std::string id;
   std::string link;
   std::vector<std::string> touch_links;
-  std::vector<Body> parts;  ///< At rest in the link's frame; named as the bodies of a scene.
+  std::vector<Body> parts;  ///< Bodies at rest in the link's frame; named as the bodies of a scene.
 };
 
 /// The objects of moveit_msgs/PlanningScene around a robot, in its planning frame.
 struct PlanningScene {
-  /// The bodies, all at rest: "id" for an object of one part, "id/0", "id/1" for one of several.
+  /// The bodies, all at rest: "id" for an object of one body, "id/0", "id/1" for one of several.
   std::vector<Body> bodies;
-  std::vector<std::string> object_ids;  ///< Of each body, the object that it is a part of.
+  std::vector<std::string> object_ids;  ///< For each body the object to which it belongs.
   AllowedCollisions allowed;
   std::vector<AttachedObject> attached;
-  std::map<std::string, double> padding;  ///< [m]  By link; > 0.
-  JointPositions state = {};              ///< Of robot_state, by names that the robot may not have.
-  std::vector<std::string> warnings = {};  ///< What a user should know of the file.
+  std::map<std::string, double> padding;  ///< [m]  Padding of each link; > 0.
+  JointPositions state = {};  ///< Positions of robot_state, by names that the robot may not have.
+  std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
 
 /// The start and the goal of a moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   JointPositions start;
-  JointPositions goal;                     ///< Joints that it does not name keep their start.
-  std::optional<LinkGoal> link_goal = {};  ///< In place of positions of joints.
-  Pose base;                               ///< Of the robot, where the start has it.
-  std::vector<std::string> warnings = {};  ///< What a user should know of the file.
+  JointPositions goal;  ///< Positions at the goal. Joints that it does not name keep their start.
+  std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
+  Pose base;                               ///< Pose of the robot, where the start has it.
+  std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
 
 /// Reads a planning scene.
 ///
-/// Boxes, spheres, cylinders, cones and meshes become bodies, with the pose of an object times
-/// that of its part, multiplied in double precision. Frames are the planning frame ("", "world",
+/// Boxes, spheres, cylinders, cones and meshes become bodies. The pose of an object times that of
+/// its shape is multiplied in double precision. Frames are the planning frame ("", "world",
 /// `frame`) or those of fixed_frame_transforms. Lists [x, y, z] and maps {x: , y: , z: } mean the
-/// same; a quaternion is x, y, z, w, and of zeros the identity, with a warning. Attached objects
-/// are in the frame of their link. Padding thickens a link by a ball. What would be left out
-/// without notice is an error: planes, octomaps, scales of links, objects in other frames, a robot
-/// whose base is moved, unknown keys.
+/// same. A quaternion is x, y, z, w; one of zeros is the identity, with a warning. Attached objects
+/// are in the frame of their link. Padding thickens a link by a ball.
+///
+/// Content that would be left out without notice is an error: planes, octomaps, scales of links,
+/// objects in other frames, a robot whose base is moved, unknown keys.
 ///
 /// @param frame  the name of the robot's root link: it is in the planning frame
 /// @throws ParseError
@@ -80,8 +82,10 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
     std::string_view text, const std::filesystem::path& source, std::string_view frame);
 
-/// Reads a request with one goal: positions of joints, or the pose of a link. Positions of fixed
-/// joints are left out with a warning; a quaternion of zeros is the identity, with a warning, too.
+/// Reads a request with one goal: positions of joints, or the pose of a link.
+///
+/// Positions of fixed joints are left out with a warning. A quaternion of zeros is the identity,
+/// with a warning, too.
 ///
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest
@@ -98,7 +102,7 @@ read_planning_request(const std::filesystem::path& path, const RobotModel& robot
 ///
 /// Where there are no limits it takes 1 s.
 ///
-/// @param turning  of continuous joints and the angles of planar ones; MoveIt takes the short way
+/// @param turning  for continuous joints and the angles of planar ones; MoveIt turns the short way
 [[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,
                                                           const JointPositions& start,
                                                           const JointPositions& goal,

@@ -17,7 +17,7 @@ namespace firstcontact {
 /// 40(4), 2021. docs/rigid_ipc.md states the use of each of its keys.
 ///
 /// Bodies are named by their mesh, "cube", or "cube-3" by their number in the file where a mesh
-/// occurs more than once. Bodies that do not move freely touch none of their like, nor do those of
+/// occurs more than once. Bodies that do not move freely do not touch each other, nor do bodies of
 /// one group. A mesh is looked for beside the file, then in the folders `meshes` of the folders
 /// above it. Keys that begin with '#' are comments; other unknown keys become warnings of the
 /// scene.
