@@ -13,6 +13,7 @@
 
 namespace firstcontact {
 
+/// The forms of a convex core.
 enum class ConvexKind : std::uint8_t { point, segment, box, cylinder, cone, ellipsoid, hull };
 
 /// A closed convex set in a frame, ready for fast evaluation; refers to the points of a hull.
@@ -29,21 +30,23 @@ struct ConvexCore {
   ConvexKind kind = ConvexKind::point;
   Eigen::Vector3d size = Eigen::Vector3d::Zero();    ///< [m]  >= 0; those of an ellipsoid are > 0.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]  In the frame.
-  std::span<const Eigen::Vector3d> points = {};      ///< [m]  Of a hull; at least one.
-  /// [m]  No point of the set is farther from the origin of the frame, or from its own origin.
+  std::span<const Eigen::Vector3d> points = {};      ///< [m]  The points of a hull; at least one.
+  /// [m]  Bound of the distance of any point of the set from the origin of the frame, and from its
+  /// own origin.
   double reach = 0.0;
 
-  /// [m]  A point of the set that is nearly the farthest along n.
+  /// [m]  A point of the set that is almost the farthest along n.
   ///
-  /// It is within 2^-49 of the reach of the set, whatever n is; how far along n it lies decides the
-  /// speed of a search, not its truth.
+  /// It is within 2^-49 of the reach from the exact set, whatever n is. How far along n it lies
+  /// affects the speed of a search, not its proofs.
   [[nodiscard]] Eigen::Vector3d support_point(const Eigen::Vector3d& n) const;
 
   /// [m]  An upper bound of h(n) = max n . x over the set, for the doubles n as they are.
   ///
-  /// For n = 0 and for components between 1e-100 and 1e100 in size, or 0, and sizes so too.
+  /// Holds for components of n and sizes that are 0 or between 1e-100 and 1e100 in size; n may be
+  /// 0.
   ///
-  /// Never more than 2^-46 |n| reach above h(n), but for underflow.
+  /// But for underflow, it is at most 2^-46 |n| reach above h(n).
   ///
   /// Derivation, u = 2^-53, |n|_1 the sum of the components' sizes: each formula below is a sum of
   /// products of components of n and of lengths up to the reach, and of the square root of a sum
@@ -80,7 +83,7 @@ inline Eigen::Vector3d ConvexCore::hull_point(const Eigen::Vector3d& n) const {
 }
 
 inline Eigen::Vector3d ConvexCore::own_point(const Eigen::Vector3d& n) const {
-  // Below this the square of a length is too coarse to divide by: the middle is as good.
+  // Below this the square of a length is too coarse to divide by; the middle serves as well.
   constexpr double kLeastSquare = 1e-280;
   const auto on_circle = [&](double z) {
     const double across2 = n.x() * n.x() + n.y() * n.y();

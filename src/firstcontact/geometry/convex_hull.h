@@ -13,9 +13,10 @@
 
 namespace firstcontact {
 
-/// The convex hull as a closed mesh whose triangles face outwards, over some of the points in their
-/// order. Of points in a plane it is their convex polygon, of points on a line a segment, of one
-/// point that point: a mesh that encloses nothing.
+/// Makes the convex hull of points, as a closed mesh whose triangles face outwards.
+///
+/// Its vertices are some of the points, in their order. For points in a plane it is their convex
+/// polygon, for points on a line a segment, for one point that point. These meshes enclose nothing.
 ///
 /// Every decision is the exact sign of a determinant: no point lies outside, not even by a
 /// rounding. Coordinates below 2^-300 of the greatest count as rounded to that. Takes O(n log n)
@@ -26,8 +27,8 @@ namespace firstcontact {
 /// @throws std::invalid_argument if there is no point, or one is not finite
 [[nodiscard]] FIRSTCONTACT_API Mesh convex_hull(const std::vector<Eigen::Vector3d>& points);
 
-/// The hull as a shape; solid where it encloses space. Vertices and faces as convex_hull numbers
-/// them.
+/// Makes the hull as a shape; solid where it encloses space. convex_hull numbers its vertices and
+/// faces.
 ///
 /// @param radius  [m]  thickens it; >= 0
 /// @throws std::invalid_argument as convex_hull and Shape

@@ -1,5 +1,5 @@
 /// @file
-/// Convex sets with a support function: what curved bodies are, exactly.
+/// Convex sets with a support function: the exact form of curved bodies.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace firstcontact {
 ///
 /// The lengths are taken as they are: a set is the exact one that the doubles define. Immutable and
 /// cheap to copy. All factories throw std::invalid_argument where a length is not finite or not in
-/// its range (primitives.h: from 1e-60 to 1e60 m, or 0 where 0 is allowed).
+/// its range. primitives.h has the range: from 1e-60 to 1e60 m, or 0 where 0 is allowed.
 class FIRSTCONTACT_API ConvexSet {
  public:
   /// Makes a ball about the origin.
@@ -53,12 +53,12 @@ class FIRSTCONTACT_API ConvexSet {
 
   /// Makes an ellipsoid along the axes, centred at the origin.
   ///
-  /// @param radii  [m]  half of its length along each axis; > 0
+  /// @param radii  [m]  half of the length along each axis; > 0
   [[nodiscard]] static ConvexSet ellipsoid(const Eigen::Vector3d& radii);
 
   /// Makes the convex hull of points.
   ///
-  /// Queries look at each of them: the fewer, the faster.
+  /// Queries look at every point: the time grows with their number.
   ///
   /// @param points    [m]  at least one, finite, no coordinate beyond 1e60
   /// @param rounding  [m]  thickens it; >= 0
@@ -67,16 +67,16 @@ class FIRSTCONTACT_API ConvexSet {
   /// The core, which refers to the points of this set.
   [[nodiscard]] const ConvexCore& core() const { return core_; }
 
-  /// [m]  Thickens the core.
+  /// [m]  The radius that thickens the core.
   [[nodiscard]] double rounding() const { return rounding_; }
 
-  /// The core seen from p: in a frame with the axes of the set and the origin at p. Exact.
+  /// The core in a frame with the axes of the set and the origin at p. Exact.
   ///
   /// @param p  [m]  from the origin of the set
   [[nodiscard]] ConvexCore core_from(const Eigen::Vector3d& p) const;
 
   /// [m]  An upper bound of max n . x over the set, rounding included, for the doubles n as they
-  /// are; not much above it (ConvexCore::support_bound).
+  /// are. ConvexCore::support_bound states how tight it is.
   [[nodiscard]] double support_bound(const Eigen::Vector3d& n) const;
 
   /// Compares by content: negative, zero or positive, a total order.

@@ -13,15 +13,16 @@
 
 namespace firstcontact {
 
-/// A body whose vertices move: its deforming shape and the motion of its frame, which belong
+/// A body whose vertices move: its deforming shape, and the motion of its frame. The two belong
 /// together.
 struct DeformingBody {
   Shape shape;  ///< Deforms about its centre.
   Motion X_WS;  ///< Carries the centre from the middle of the mesh at t = 0 to that at t = 1.
 };
 
-/// Moves every vertex i of the shape from its coordinates to to[i], world frame: at t it is at
-/// (1 - t) shape.mesh().vertices[i] + t to[i], exactly.
+/// Moves every vertex i of the shape from its coordinates to to[i], world frame.
+///
+/// At t it is exactly at (1 - t) shape.mesh().vertices[i] + t to[i].
 ///
 /// @param to  [m]  one for each vertex of the mesh
 /// @throws std::invalid_argument as Shape::deforming does

@@ -15,10 +15,10 @@ namespace firstcontact {
 
 /// Heights over a regular grid in the plane z = 0.
 ///
-/// The first sample is at the origin, that of row i and column k at (k cell.x, i cell.y).
+/// The first sample is at the origin. The sample of row i and column k is at (k cell.x, i cell.y).
 struct HeightMap {
   Eigen::Vector2d cell = Eigen::Vector2d::Ones();  ///< [m]  Distance of neighbouring samples; > 0.
-  std::size_t columns = 0;                         ///< Of samples, along x; >= 2.
+  std::size_t columns = 0;                         ///< Samples of a row, along x; >= 2.
   std::vector<double> heights;                     ///< [m]  Row by row; >= 2 rows.
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Volume, centre of mass and inertia of what a shape encloses.
+/// Volume, centre of mass and inertia of the solid that a shape encloses.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace firstcontact {
 struct MassProperties {
   double volume = 0.0;                                ///< [m^3]  > 0
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< [m]  Centre of mass, in the body frame.
-  Eigen::Matrix3d about_C = Eigen::Matrix3d::Zero();  ///< [m^5]  Inertia about it, body axes.
+  Eigen::Matrix3d about_C = Eigen::Matrix3d::Zero();  ///< [m^5]  Inertia about C, body axes.
 };
 
 /// Computes the integrals over the solid that a shape encloses, exactly but for rounding.
@@ -25,14 +25,15 @@ struct MassProperties {
 /// solid. For a thickened point it is a ball, for a thickened edge a capsule. Vertices at the same
 /// place count as one.
 ///
-/// Triangles may all face outwards or all inwards; those around a cavity face into it. What they
-/// wind around twice, as parts that overlap, counts twice. A radius around a closed mesh has no
-/// mass: the polyhedron has it all. A curved body enclosed by triangles has the volume of these.
+/// Triangles may all face outwards or all inwards; those around a cavity face into it. Space that
+/// they wind around twice, as components that overlap do, counts twice. A radius around a closed
+/// mesh has no mass: the polyhedron has it all. A curved body enclosed by triangles has the volume
+/// of the triangles.
 ///
 /// Precise far from the body frame's origin too: integrals are relative to the mesh.
 ///
 /// @throws std::invalid_argument if the shape encloses no space: open edges, neighbours that face
-///         opposite sides, no volume within rounding, a part inside out that is no cavity
+/// opposite sides, no volume within rounding, a component inside out that is no cavity
 [[nodiscard]] FIRSTCONTACT_API MassProperties mass_properties(const Shape& shape);
 
 }  // namespace firstcontact

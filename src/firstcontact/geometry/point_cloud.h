@@ -12,7 +12,8 @@
 
 namespace firstcontact {
 
-/// Points, thickened by a radius: a union of balls. Vertex k and triangle k are point k.
+/// Makes the shape of points thickened by a radius: a union of balls. Vertex k and triangle k are
+/// point k.
 ///
 /// @param points  [m]  at least one
 /// @param radius  [m]  >= 0

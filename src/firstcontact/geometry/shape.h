@@ -1,5 +1,5 @@
 /// @file
-/// A shape: what a body is made of, ready for queries.
+/// The geometry of a body, ready for queries.
 
 #pragma once
 
@@ -24,12 +24,12 @@ struct ShapeBounds;
 /// Whether the space that a closed mesh encloses belongs to the shape.
 enum class Filling { surface, solid };
 
-/// Its words in files and in Python, in this order.
+/// The words of `Filling` in files and in Python, in its order.
 inline constexpr std::array<const char*, 2> kFillingWords{"surface", "solid"};
 
 /// A union of simplices thickened by a radius, with its bounding-volume hierarchy.
 ///
-/// Every point around which the triangles of a solid wind other than zero times belongs to it: a
+/// A point belongs to a solid where the winding number of the triangles around it is not zero. A
 /// cavity, bounded by triangles that face into it, is outside.
 ///
 /// Immutable and cheap to copy: copies share their data, also between threads.
@@ -37,7 +37,7 @@ class FIRSTCONTACT_API Shape {
  public:
   /// Builds the hierarchy, in parallel for large meshes; the same on every run.
   ///
-  /// @param mesh     [m]  at least one triangle, all of it finite; welding is the caller's choice
+  /// @param mesh     [m]  at least one triangle, all finite; welding is the caller's choice
   /// @param radius   [m]  thickens every simplex; >= 0
   /// @param filling  a solid needs a closed mesh whose triangles agree on their inner side
   /// @param enclosure_error  [m]  see enclosure_error(); >= 0
@@ -48,10 +48,12 @@ class FIRSTCONTACT_API Shape {
 
   /// Makes a shape that is a convex set, exactly; the mesh is the same set, or encloses it.
   ///
-  /// First contact, distance and closest approach take the set where the mesh only encloses it
-  /// (is_curved()), and for its partner in a pair with such a shape.
+  /// First contact, distance and closest approach take the set in place of the triangles where the
+  /// mesh only encloses it (is_curved()). They do the same for the partner in a pair with such a
+  /// shape.
   ///
-  /// @param mesh             [m]  as above, of the core of the set; closed where that is a solid
+  /// @param mesh             [m]  as above; the mesh of the core of the set, closed where that is
+  /// solid
   /// @param enclosure_error  [m]  see enclosure_error(); 0 where the mesh is exact
   /// @param set              its rounding is the radius of the shape
   Shape(Mesh mesh, Filling filling, double enclosure_error, const ConvexSet& set);
@@ -63,39 +65,38 @@ class FIRSTCONTACT_API Shape {
   /// move_vertices() chooses the translation. The inside of a solid follows its surface.
   ///
   /// @param to           [m]  one for each vertex of the mesh, in world axes as the vertices are
-  /// @param translation  [m]  of the body frame over the step; what all vertices have in common
-  /// @throws std::invalid_argument if there are not as many as vertices, one is not finite or
-  ///         beyond 1e60 m, or the shape encloses a curved body, which its triangles would no
-  ///         longer
+  /// @param translation  [m]  of the body frame over the step: the motion that all vertices share
+  /// @throws std::invalid_argument if there are not as many as vertices, or one is not finite or
+  /// beyond 1e60 m; or if the shape encloses a curved body, as its triangles would enclose it no
+  /// longer
   [[nodiscard]] Shape deforming(std::span<const Eigen::Vector3d> to,
                                 const Eigen::Vector3d& translation = Eigen::Vector3d::Zero()) const;
 
-  [[nodiscard]] const Mesh& mesh() const;  ///< At t = 0.
-  /// [m]  The places of the vertices as deforming() was given them; empty where the shape does not
-  /// deform.
+  [[nodiscard]] const Mesh& mesh() const;  ///< The mesh at t = 0.
+  /// [m]  The argument `to` of deforming(); empty where the shape does not deform.
   [[nodiscard]] std::span<const Eigen::Vector3d> vertices_to() const;
-  /// [m]  The translation that deforming() was given; zero where the shape does not deform.
+  /// [m]  The argument `translation` of deforming(); zero where the shape does not deform.
   [[nodiscard]] const Eigen::Vector3d& translation_to() const;
   [[nodiscard]] double radius() const;  ///< [m]
   [[nodiscard]] bool is_solid() const;
 
-  /// [m]  A bound of the distance of the triangles from a curved body that they enclose from
-  /// outside.
+  /// [m]  A bound of the distance of any point of the triangles from the curved body that they
+  /// enclose.
   ///
-  /// No point of the triangles is farther from that body. 0 where they are exact. Queries that
-  /// take the curved body itself (convex_set()) do not add it to anything.
+  /// 0 where the triangles are exact. Queries that take the curved body itself (convex_set()) add
+  /// it to nothing.
   [[nodiscard]] double enclosure_error() const;
 
-  /// The convex set that the shape is, exactly, in the body frame; null where none is known.
+  /// The convex set that is exactly the shape, in the body frame; null where none is known.
   [[nodiscard]] const ConvexSet* convex_set() const;
 
   /// Whether the shape is a convex set that its triangles only enclose, to within
   /// enclosure_error(): a cylinder, a cone, an ellipsoid.
   [[nodiscard]] bool is_curved() const;
 
-  /// The core of the convex set, seen from hierarchy().centre; refers to this shape.
+  /// The core of the convex set, its origin at hierarchy().centre; refers to this shape.
   ///
-  /// Only for a shape that has a set. A hull is that of hierarchy().vertices, as they are.
+  /// Only for a shape that has a set. A hull takes hierarchy().vertices as they are.
   [[nodiscard]] ConvexCore convex_core() const;
 
   /// A single box around the core of the convex set, about the same centre as hierarchy().
@@ -103,13 +104,13 @@ class FIRSTCONTACT_API Shape {
   /// Only for a shape that has a set. Computed when first needed.
   [[nodiscard]] const Hierarchy& convex_hierarchy() const;
 
-  /// Makes the shape of the triangles alone, which knows of no convex set.
+  /// Makes the shape of the triangles alone, without a convex set.
   ///
   /// It shares their hierarchy. Where the set is curved, the triangles are a little larger.
   [[nodiscard]] Shape as_triangles() const;
 
-  /// One vertex of each set of triangles joined by shared vertices; indices into
-  /// hierarchy().vertices.
+  /// The component representatives: one vertex of each set of triangles joined by shared vertices,
+  /// as indices into hierarchy().vertices.
   [[nodiscard]] std::span<const std::uint32_t> component_vertices() const;
 
   [[nodiscard]] std::size_t edge_count() const;
@@ -123,13 +124,15 @@ class FIRSTCONTACT_API Shape {
 
   [[nodiscard]] const Hierarchy& hierarchy() const;
 
-  /// The features of each triangle, in the order of the hierarchy, that none before it has.
+  /// The own features of each triangle: those that no triangle before it has, in the order of the
+  /// hierarchy.
   ///
-  /// So each feature counts once: bit k of a triangle is its corner k, bit 3 + k its edge from
-  /// there. A degenerate triangle whose corners repeat has all of them. Computed when first needed.
+  /// So each feature counts once. Bit k of a triangle is its corner k, bit 3 + k the edge that
+  /// begins at corner k. A degenerate triangle whose corners repeat has all of them. Computed when
+  /// first needed.
   [[nodiscard]] std::span<const std::uint8_t> own_features() const;
 
-  /// The table of the same features with all that pairing them needs; computed when first needed.
+  /// The table of the own features with all that pairing them needs; computed when first needed.
   ///
   /// Only for a shape of few triangles (FeatureTable::kMostTriangles).
   [[nodiscard]] const FeatureTable& feature_table() const;
@@ -138,8 +141,8 @@ class FIRSTCONTACT_API Shape {
   /// needed.
   [[nodiscard]] const ShapeBounds& bounds() const;
 
-  /// The screw along which the surface slides in itself, with its bounds there; null where there is
-  /// none.
+  /// The screw along which the surface slides in itself, with its bounds there; null where no screw
+  /// does so.
   ///
   /// Only for a shape that does not deform. Computed when first needed.
   [[nodiscard]] const ScrewSlidingSurface* screw_sliding() const;
@@ -147,7 +150,7 @@ class FIRSTCONTACT_API Shape {
   /// Compares two shapes by content: negative, zero or positive, a total order up to hash
   /// collisions.
   ///
-  /// With it queries put two bodies in an order of their own and answer alike for A and B swapped.
+  /// By this order queries sort two bodies, and so answer alike for A and B swapped.
   [[nodiscard]] int compare(const Shape& other) const;
 
  private:
