@@ -13,34 +13,36 @@
 
 namespace firstcontact {
 
+/// The options of a browser device.
 struct BrowserDeviceOptions {
-  std::uint16_t port = 0;  ///< On 127.0.0.1; 0 for a free one.
+  std::uint16_t port = 0;  ///< The port on 127.0.0.1; 0 for a free one.
 };
 
 /// A handle that a page of a browser moves. It senses poses, and no force reaches the hand.
 ///
 /// The device serves its page to this machine only: over HTTP at "/", and by a WebSocket at "/live"
 /// of the same port. The page sends `{"position": [x, y, z], "rotation": [w, x, y, z]}`, the pose
-/// of the handle in D [m]. With `"grip"` all grips have that value, else 0. It receives the
-/// messages of `show`, at most 60 a second. A page that another site has opened is refused, and so
-/// is a second one while the first is there.
+/// of the handle in D [m]. A message with `"grip"` sets all grips to that value, any other sets
+/// them to 0. The page receives the messages of `show`, at most 60 a second. The device refuses a
+/// page that another site has opened, and a second page while the first one is there.
 ///
-/// Before the first pose the status is `waiting`, without a page it is `lost`.
+/// Before the first pose the status is `waiting`; without a page it is `lost`.
 class FIRSTCONTACT_API BrowserDevice : public Device {
  public:
-  /// Listens, and serves nothing yet.
+  /// Opens the port and listens; serves no page yet.
   ///
   /// @throws std::runtime_error  if the port is taken, with the mend
   explicit BrowserDevice(const BrowserDeviceOptions& options = {});
   ~BrowserDevice() override;
 
+  /// The port on which the device listens.
   [[nodiscard]] std::uint16_t port() const noexcept;
 
   /// Serves a page from now on. Call it once.
   void serve(std::string page);
 
-  /// Sends a text to the page, in the place of one that is not sent yet. For any thread; not for
-  /// the force loop.
+  /// Sends a text to the page. It replaces an earlier text that is not sent yet. For any thread;
+  /// not for the force loop.
   void show(std::string_view message);
 
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override;

@@ -22,10 +22,10 @@ enum class DeviceKind {
   rate,  ///< A deflected cap sets velocities: `DeviceState::linear_rate`, `angular_rate`.
 };
 
-/// [values]  A device senses at most so many of the fingers of a hand.
+/// [values]  The most values of grips that a device senses, such as the fingers of a hand.
 inline constexpr std::size_t kMostGrips = 16;
 
-/// Its words in files and messages, in this order.
+/// The words of `DeviceKind` in files and messages, in its order.
 inline constexpr std::array<const char*, 2> kDeviceKindWords{"pose", "rate"};
 
 /// Flags of the six degrees of freedom, along and about the axes of the device frame D.
@@ -43,25 +43,28 @@ struct DegreesOfFreedom {
 
 /// The abilities and limits of a device. They do not change while the device is open.
 ///
-/// A limit that the maker does not state is infinite. A limit of what is not driven is 0.
+/// A limit that the maker does not state is infinite. A limit of an axis that is not driven is 0.
 struct DeviceCapabilities {
-  std::string name;  ///< Of the model: "Inverse3".
-  std::string id;    ///< Of this specimen, as logs write it; may be empty.
+  std::string name;  ///< Name of the model: "Inverse3".
+  std::string id;    ///< Name of this specimen, as logs write it; may be empty.
   DeviceKind kind = DeviceKind::pose;
-  DegreesOfFreedom sensed;  ///< The others stay at the identity, or at rate 0.
-  DegreesOfFreedom driven;  ///< Components of a command along the others are dropped.
-  int buttons = 0;          ///< At most 32.
-  int grips = 0;            ///< At most kMostGrips: values of `DeviceState::grips` that it senses.
+  /// The axes that the device senses. The others stay at the identity, or at rate 0.
+  DegreesOfFreedom sensed;
+  /// The axes that the device drives. Components of a command along others are dropped.
+  DegreesOfFreedom driven;
+  int buttons = 0;  ///< Number of buttons, at most 32.
+  int grips = 0;  ///< Number of values of `DeviceState::grips` that it senses, at most kMostGrips.
 
   double max_force = 0.0;              ///< [N]          Greatest length of the force vector.
   double max_torque = 0.0;             ///< [N m]        Greatest length of the torque vector.
   double max_stiffness = 0.0;          ///< [N/m]
   double max_angular_stiffness = 0.0;  ///< [N m/rad]
-  double max_grip_effort = 0.0;        ///< [J]          Of each grip; 0 where none is driven.
-  double max_damping = 0.0;            ///< [N s/m]
-  double max_angular_damping = 0.0;    ///< [N m s/rad]
+  /// [J]          Greatest effort of each grip; 0 where none is driven.
+  double max_grip_effort = 0.0;
+  double max_damping = 0.0;          ///< [N s/m]
+  double max_angular_damping = 0.0;  ///< [N m s/rad]
 
-  /// [m]  Of a ball about the origin of D that the handle can reach everywhere.
+  /// [m]  Radius of a ball about the origin of D that the handle can reach everywhere.
   double workspace_radius = std::numeric_limits<double>::infinity();
 
   // The declared class of the device, for bounds of stable gains. 0 claims nothing.
@@ -88,7 +91,7 @@ enum class DeviceStatus : std::uint8_t {
   ended,    ///< A recording is over. It will not come back.
 };
 
-/// Its words in files and messages, in this order.
+/// The words of `DeviceStatus` in files and messages, in its order.
 inline constexpr std::array<const char*, 5> kDeviceStatusWords{"waiting", "live", "silent", "lost",
                                                                "ended"};
 
@@ -100,19 +103,20 @@ inline constexpr std::array<const char*, 5> kDeviceStatusWords{"waiting", "live"
 struct DeviceState {
   /// The pose of the handle H in the device frame D. For a rate device the identity.
   Pose X_DH;
-  /// [m/s]  Velocity that a rate device sets, in D. For a pose device its own measurement of
-  /// the velocity of H's origin, or 0 where it has none.
+  /// [m/s]  Velocity in D: the one that a rate device sets, or the one of H's origin that a pose
+  /// device measures. 0 where a pose device measures none.
   Eigen::Vector3d linear_rate = Eigen::Vector3d::Zero();
-  /// [rad/s]  The same for the angular velocity, in D.
+  /// [rad/s]  Angular velocity in D, by the same rules.
   Eigen::Vector3d angular_rate = Eigen::Vector3d::Zero();
-  /// [ns]  When the sample was taken, or else when it arrived, on the clock of `Device::read`.
+  /// [ns]  Time at which the sample was taken, or else arrived, on the clock of `Device::read`.
   std::int64_t time_ns = 0;
-  /// Counts the samples. The same number is the same sample; a jump shows how many were missed.
+  /// The number of the sample. Equal numbers are the same sample; a jump shows how many were
+  /// missed.
   std::uint64_t sequence = 0;
-  /// [-]  How far fingers are bent, or a gripper is closed: 0 open, 1 closed. A value may go
-  /// beyond.
+  /// [-]  How far fingers are bent, or a gripper is closed: 0 open, 1 closed. Values below 0 and
+  /// above 1 may occur.
   std::array<double, kMostGrips> grips{};
-  /// Bit i is set while button i is pressed.
+  /// The buttons: bit i is set while button i is pressed.
   std::uint32_t buttons = 0;
   DeviceStatus status = DeviceStatus::waiting;
 };
@@ -121,8 +125,8 @@ struct DeviceState {
 struct ForceCommand {
   Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]    At the origin of H, axes of D.
   Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]  About the origin of H, axes of D.
-  /// [J]  On each grip: work by its value, so that below 0 it opens. Where a finger goes by s
-  /// metres from 0 to 1, a force of effort / s.
+  /// [J]  Effort on each grip: work per unit of its value; an effort below 0 opens it. A finger
+  /// that moves s metres from 0 to 1 feels a force of effort / s.
   std::array<double, kMostGrips> grips{};
 };
 

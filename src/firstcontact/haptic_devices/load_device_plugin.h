@@ -1,5 +1,5 @@
 /// @file
-/// Devices of vendors, by plug-ins.
+/// Loads devices of vendors from plug-ins.
 
 #pragma once
 
@@ -14,9 +14,9 @@ namespace firstcontact {
 
 /// Loads a plug-in (see device_plugin.h) and opens its device.
 ///
-/// The device checks what the plug-in gives: a sample with a number that is not finite, or without
-/// a rotation, is dropped and counted as malformed. Commands reach the plug-in within its limits.
-/// The library stays loaded as long as the device.
+/// The device checks the samples of the plug-in. It drops a sample with a number that is not
+/// finite, or without a rotation, and counts it as malformed. Commands reach the plug-in within its
+/// limits. The library stays loaded as long as the device.
 ///
 /// A plug-in runs in this process with all of its rights: load only what you trust.
 ///

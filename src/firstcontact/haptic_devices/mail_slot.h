@@ -12,22 +12,23 @@ namespace firstcontact {
 
 /// A slot for the newest value, between one thread that puts and one thread that takes.
 ///
-/// Both sides are wait-free: three copies go round, one for each side and one between them. A value
-/// that nobody took is overwritten. Nothing is allocated where assigning a T allocates nothing.
+/// Both sides are wait-free. The slot has three copies: one for each side, and one between them. A
+/// value that nobody took is overwritten. Nothing is allocated where assigning a T allocates
+/// nothing.
 ///
 /// Other names of the method: triple buffer, three-slot communication mechanism.
 template <class T>
 class MailSlot {
  public:
-  /// Puts a value. For one thread.
+  /// Puts a value. For the putting thread only.
   void put(const T& value) noexcept {
     slots_[back_].value = value;
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) &
             kIndex;
   }
 
-  /// Takes the newest value, or the one taken last if there is no newer one. For one thread. The
-  /// reference holds until the next call. Before the first put it is a default T.
+  /// Takes the newest value, or the last one again if there is no newer one. For the taking thread
+  /// only. The reference holds until the next call. Before the first put it is a default T.
   [[nodiscard]] const T& newest() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) != 0) {
       front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
@@ -46,8 +47,8 @@ class MailSlot {
 
   std::array<Slot, 3> slots_{};
   alignas(64) std::atomic<std::uint8_t> middle_{1};
-  alignas(64) std::uint8_t back_ = 0;   // Of the thread that puts.
-  alignas(64) std::uint8_t front_ = 2;  // Of the thread that takes.
+  alignas(64) std::uint8_t back_ = 0;   // Index of the putting thread's copy.
+  alignas(64) std::uint8_t front_ = 2;  // Index of the taking thread's copy.
 };
 
 }  // namespace firstcontact

@@ -28,8 +28,8 @@ struct DeviceCalibration {
 struct Recording {
   DeviceCapabilities capabilities;
   DeviceCalibration calibration;
-  /// As recorded, in R. Times and sequence numbers do not decrease. A repeated sequence number is
-  /// the same sample again; a jump of it means that samples are missing.
+  /// The samples as recorded, in R. Times and sequence numbers do not decrease. A repeated sequence
+  /// number is the same sample again; a jump of it means that samples are missing.
   std::vector<DeviceState> samples;
 };
 
@@ -45,24 +45,25 @@ struct Recording {
 /// @throws ParseError  as parse_recording, or if the file cannot be read
 [[nodiscard]] FIRSTCONTACT_API Recording read_recording(const std::filesystem::path& path);
 
-/// The lines of a recording before its samples, with line ends. With `recording_line` a program
-/// writes a recording while it runs.
+/// Writes the lines of a recording before its samples, with line ends.
+///
+/// With `recording_line` a program writes a recording while it runs.
 ///
 /// @throws std::invalid_argument  if a name or id is longer than 200 bytes or has a
 ///                                control character, or a number is NaN
 [[nodiscard]] FIRSTCONTACT_API std::string recording_head(
     const DeviceCapabilities& capabilities, const DeviceCalibration& calibration = {});
 
-/// The line of one sample, with its line end. Reads back to the same numbers.
+/// Writes the line of one sample, with its line end. The line reads back to the same numbers.
 ///
-/// @param grips  values of grips that the device senses
+/// @param grips  number of values of grips that the device senses
 [[nodiscard]] FIRSTCONTACT_API std::string recording_line(const DeviceState& sample,
                                                           DeviceKind kind, int grips = 0);
 
-/// The text of a whole recording.
+/// Writes a whole recording as text.
 [[nodiscard]] FIRSTCONTACT_API std::string write_recording(const Recording& recording);
 
-/// A sample in the device frame D.
+/// Maps a sample to the device frame D.
 [[nodiscard]] FIRSTCONTACT_API DeviceState
 calibrated(const DeviceState& sample, const DeviceCalibration& calibration) noexcept;
 

@@ -18,18 +18,18 @@
 
 namespace firstcontact {
 
-/// A hand: a mass on a spring and a damper, the other end of which follows the path with tremor.
+/// A hand: a mass on a spring and a damper whose other end follows the path with tremor.
 struct HandOptions {
-  double stiffness = 400.0;                                ///< [N/m]       0 to 1500 for people.
-  double damping = 10.0;                                   ///< [N s/m]
-  double mass = 0.25;                                      ///< [kg]        Moves with the handle.
-  double max_force = 40.0;                                 ///< [N]         Of the spring.
-  double angular_stiffness = 1.0;                          ///< [N m/rad]
-  double angular_damping = 0.01;                           ///< [N m s/rad]
-  double inertia = 1e-4;                                   ///< [kg m^2]    About each axis.
-  double max_torque = 1.0;                                 ///< [N m]       Of the spring.
-  double tremor = 5e-5;                                    ///< [m]         Root mean square.
-  double angular_tremor = 5e-4;                            ///< [rad]       Root mean square.
+  double stiffness = 400.0;        ///< [N/m]       0 to 1500 for people.
+  double damping = 10.0;           ///< [N s/m]
+  double mass = 0.25;              ///< [kg]        Mass that moves with the handle.
+  double max_force = 40.0;         ///< [N]         Greatest force of the spring.
+  double angular_stiffness = 1.0;  ///< [N m/rad]
+  double angular_damping = 0.01;   ///< [N m s/rad]
+  double inertia = 1e-4;           ///< [kg m^2]    Inertia about each axis.
+  double max_torque = 1.0;         ///< [N m]       Greatest torque of the spring.
+  double tremor = 5e-5;            ///< [m]         Root mean square.
+  double angular_tremor = 5e-4;    ///< [rad]       Root mean square.
   std::array<double, 2> tremor_frequencies = {8.0, 12.0};  ///< [Hz]  Least and greatest.
 };
 
@@ -47,8 +47,9 @@ struct MechanismOptions {
 
 /// The channel between the mechanism and the loop.
 struct ChannelOptions {
-  double resolution = 1e-5;           ///< [m]    Encoder step of the position; 0 for none.
-  double angular_resolution = 5e-5;   ///< [rad]  Of the rotation vector; 0.003 degrees; 0 for none.
+  double resolution = 1e-5;  ///< [m]    Encoder step of the position; 0 for none.
+  /// [rad]  Encoder step of the rotation vector; 0.003 degrees; 0 for none.
+  double angular_resolution = 5e-5;
   std::int64_t sensor_delay_ns = 0;   ///< [ns]   A sample is at least this old.
   std::int64_t command_delay_ns = 0;  ///< [ns]   A command acts this much later.
   std::int64_t jitter_ns = 0;  ///< [ns]   Either delay is longer by a random time below this.
@@ -56,9 +57,9 @@ struct ChannelOptions {
 
 /// The fingers of the hand: they open and close, and do not yield to efforts.
 struct FingerOptions {
-  int grips = 0;        ///< Values that the device senses; 0 to kMostGrips.
-  double period = 2.0;  ///< [s]  > 0  From open to open; each grip's own is 0.7 to 1.3 of it.
-  double closed = 1.0;  ///< [-]  Where they turn back.
+  int grips = 0;        ///< Number of values that the device senses; 0 to kMostGrips.
+  double period = 2.0;  ///< [s]  Time from open to open; > 0. Each grip has 0.7 to 1.3 of it.
+  double closed = 1.0;  ///< [-]  Value at which the fingers turn back.
 };
 
 /// A stretch of time in which the hand lets go of the handle.
@@ -67,24 +68,27 @@ struct HandRelease {
   double end = 0.0;    ///< [s]  > begin; may be infinite.
 };
 
+/// The options of a simulated operator.
 struct SimulatedOperatorOptions {
   HandOptions hand;
   MechanismOptions mechanism;
   ChannelOptions channel;
   FingerOptions fingers;
-  std::vector<ViaPoint> path = {ViaPoint{}};  ///< See OperatorPath.
+  std::vector<ViaPoint> path = {ViaPoint{}};  ///< Via points of the hand; see OperatorPath.
   std::vector<HandRelease> releases;          ///< In order, apart from each other.
-  std::uint64_t seed = 1;                     ///< Of the tremor and the jitter.
-  double substep = 2.5e-6;                    ///< [s]  Of the dynamics, at most; > 0.
+  std::uint64_t seed = 1;                     ///< Seed of the tremor and the jitter.
+  double substep = 2.5e-6;                    ///< [s]  Longest sub-step of the dynamics; > 0.
 };
 
-/// Energies since the begin [J]. Always
-/// kinetic = kinetic at the begin + command_work + hand_work - dissipated, up to rounding.
+/// Energies since the begin [J].
+///
+/// Always kinetic = kinetic at the begin + command_work + hand_work - dissipated, up to rounding.
 struct OperatorEnergy {
-  double kinetic = 0.0;       ///< Of the handle, with the hand where it holds on.
+  double kinetic = 0.0;       ///< Energy of the handle, and of the hand while it holds on.
   double command_work = 0.0;  ///< Done by the commanded force. Positive: the loop gave energy.
-  double hand_work = 0.0;     ///< Done by the hand; with what it takes along when it lets go.
-  double dissipated = 0.0;    ///< By the damping and the friction of the mechanism.
+  /// Done by the hand. Its own kinetic energy joins as it takes hold, and leaves as it lets go.
+  double hand_work = 0.0;
+  double dissipated = 0.0;  ///< Taken by the damping and the friction of the mechanism.
 };
 
 /// The exact state of the simulated handle, which no encoder rounds and no channel delays.
@@ -92,16 +96,16 @@ struct OperatorTruth {
   Pose X_DH;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
-  HandTarget target;                                           ///< With tremor.
+  HandTarget target;  ///< The target of the hand, tremor included.
   bool held = true;
 };
 
 /// A simulated hand on a simulated device, for loops in virtual or real time.
 ///
-/// The handle is a rigid body of equal inertia about all axes. The hand pulls it towards its path,
-/// the commanded force is held between commands. `read` advances the dynamics to its time in at
-/// least 100 sub-steps. A longer call never takes more than 4 million of them. Button 0 is pressed
-/// while the hand holds on. The hand knows nothing of a scene: its path may lead through walls.
+/// The handle is a rigid body of equal inertia about all axes. The hand pulls it towards its path.
+/// The commanded force is held between commands. `read` advances the dynamics to its time in at
+/// least 100 sub-steps, and in at most 4 million. Button 0 is pressed while the hand holds on. The
+/// hand knows nothing of a scene: its path may lead through walls.
 ///
 /// Time 0 of the path is the first call of `read`. The same seed and the same calls give the same
 /// numbers on one machine. The tremor has three sines along and about each axis.
@@ -109,6 +113,8 @@ struct OperatorTruth {
 /// Class of the device: `damping`, `friction` and `resolution` are declared in the capabilities.
 class FIRSTCONTACT_API SimulatedOperator : public Device {
  public:
+  /// Makes an operator that rests until the first call of `read`.
+  ///
   /// @throws std::invalid_argument  if an option is outside its range
   explicit SimulatedOperator(const SimulatedOperatorOptions& options = {});
 
