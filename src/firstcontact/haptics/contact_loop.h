@@ -21,77 +21,84 @@
 
 namespace firstcontact {
 
-/// A piece of a cycle at constant rates: the pivot of a body moves on a line, the body turns about
-/// it (Motion::constant_rates).
+/// A piece of a cycle at constant rates: the pivot of a body moves on a line, and the body turns
+/// about the pivot (Motion::constant_rates).
 ///
-/// The pivot of a tool is its centre, that of a link or another body its origin.
+/// The pivot of a tool is its centre; the pivot of a link or another body is its origin.
 struct HapticPiece {
-  double to = 0.0;                                        ///< [s]  Its end, since the cycle began.
-  Pose X_WB;                                              ///< Where it begins.
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m]  Of the pivot.
+  double to = 0.0;  ///< [s]  End of the piece, since the cycle began.
+  Pose X_WB;        ///< Pose at the begin of the piece.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Displacement of the pivot.
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World axes.
 };
 
-/// How a tool, a link of it or a body with a course moved in a cycle. Members are the tools, then
-/// the bodies, then the links that have a shape.
+/// The motion of a tool, one of its links or a body with a course in a cycle.
+///
+/// Members are the tools, then the bodies, then the links that have a shape.
 struct HapticMemberMotion {
   std::size_t member = 0;
-  std::vector<HapticPiece> pieces = {};  ///< They end with the cycle.
-  Pose X_WB = {};                        ///< At its end.
+  std::vector<HapticPiece> pieces = {};  ///< The pieces, up to the end of the cycle.
+  Pose X_WB = {};                        ///< Pose at the end of the cycle.
 };
 
-/// A contact of a tool at the end of a cycle, with its features: of the member, then of the tool.
+/// A contact of a tool at the end of a cycle, with the features of both members.
 struct HapticTouch {
   HapticContact contact;
   Feature feature_of_other;
   Feature feature_of_tool;
-  std::array<std::size_t, 2> members = {};  ///< The other one, then the tool or its link.
+  std::array<std::size_t, 2> members = {};  ///< The other member, then the tool or its link.
 };
 
 /// The account of a cycle of the contact loop.
 struct HapticCycle {
-  std::uint64_t index = 0;  ///< From 1.
-  double asked = 0.0;       ///< [s]
-  double lasted = 0.0;  ///< [s]  For courses; less than asked where they had to wait for a tool.
-  /// [m]  Proven: no tool came closer to anything in this cycle. Infinite where nothing is near.
+  std::uint64_t index = 0;  ///< Number of the cycle, from 1.
+  double asked = 0.0;       ///< [s]  Time that was asked for.
+  /// [s]  Time by which courses moved on; less than `asked` where they waited for a tool.
+  double lasted = 0.0;
+  /// [m]  Proven: the least distance of a tool in this cycle is at least this. Infinite where
+  /// nothing is near.
   double clearance = 0.0;
-  std::size_t rounds = 0;     ///< Projections.
-  bool is_converged = false;  ///< No more was to be gained than ContactLoopOptions::least_gain.
-  bool is_late = false;       ///< The deadline ended it.
-  double residual = 0.0;      ///< [m]  The greatest of the projections.
-  std::size_t contacts = 0;   ///< At its end.
+  std::size_t rounds = 0;  ///< Number of projections.
+  /// Whether a further round would gain less than ContactLoopOptions::least_gain.
+  bool is_converged = false;
+  bool is_late = false;      ///< Whether the deadline ended the cycle.
+  double residual = 0.0;     ///< [m]  Greatest residual of the projections.
+  std::size_t contacts = 0;  ///< Number of contacts at the end of the cycle.
   std::vector<HapticMemberMotion> members = {};
-  std::vector<double> joints = {};        ///< [rad or m]  Of all tools, at its end.
-  std::vector<HapticTouch> touches = {};  ///< At its end; those that the contact set lists.
+  std::vector<double> joints = {};  ///< [rad or m]  Joints of all tools, at the end of the cycle.
+  /// The contacts of the contact set, at the end of the cycle.
+  std::vector<HapticTouch> touches = {};
 };
 
-/// Where devices want the tools.
+/// The poses and joints that the devices want.
 struct HapticTargets {
   std::span<const Pose> poses;     ///< X_WB of each tool, finite.
-  std::span<const double> joints;  ///< [rad or m]  Of all tools, finite; empty: as they are.
+  std::span<const double> joints;  ///< [rad or m]  Joints of all tools, finite; empty: as they are.
 };
 
+/// The options of a contact loop.
 struct ContactLoopOptions {
-  std::size_t rounds = 10;  ///< > 0  Projections in a cycle, at most.
-  /// [-]  >= 0  A further round is not made where it gains less than this part of the springs'
-  /// stretch. It would change forces by about as much; the next cycle begins with it.
+  std::size_t rounds = 10;  ///< Most projections in a cycle; > 0.
+  /// [-]  Least gain of a further round, as a fraction of the springs' stretch; >= 0. A round that
+  /// gains less would change forces by about that fraction; the next cycle begins with it.
   double least_gain = 2e-3;
-  double angle = 0.0175;  ///< [rad]  > 0  Contacts that allow the same within it are left out.
-  std::size_t most_contacts = 32;  ///< 1 to kMostHapticContacts: that a contact set lists.
+  /// [rad]  Contacts that permit the same motions within this angle are left out; > 0.
+  double angle = 0.0175;
+  std::size_t most_contacts = 32;  ///< Most contacts of a contact set; 1 to kMostHapticContacts.
 };
 
 /// Moves god-objects towards their targets, cycle by cycle.
 ///
-/// In a cycle a god-object goes where its spring pulls it as far as contacts allow (Gauss'
-/// principle without inertia, with Coulomb friction), until the first contact of its in-between
-/// motion, and on from there. Each motion is proven apart from everything at a distance that is
-/// kept. Where bodies with a course would squeeze a tool they wait, and only it moves until the
-/// cycle ends (HapticCycle::lasted).
+/// In a cycle a god-object goes where its spring pulls it, as far as contacts permit. This is
+/// Gauss' principle without inertia, with Coulomb friction. It goes on until the first contact of
+/// its in-between motion, and on from there. Each motion is proven to keep a distance from
+/// everything. Where bodies with a course would squeeze a tool, the courses wait. Then only the
+/// tool moves until the cycle ends (HapticCycle::lasted).
 ///
 /// The coordinates of a tool with joints are its pose and those of its joints, each with its own
-/// spring. Its links are members of their own. Each moves at constant rates, so a joint opens while
-/// it turns, and is closed at the end of the piece. A piece is so short that it opens by less than
-/// a contact distance. Proofs and records are of the links as they move.
+/// spring. Its links are members of their own. Each link moves at constant rates, so a joint opens
+/// while it turns, and is closed at the end of the piece. A piece is so short that the joint opens
+/// by less than a contact distance. Proofs and records are about the links as they move.
 ///
 /// Source: M. Ortega, S. Redon, S. Coquillart, "A six degree-of-freedom god-object method for
 /// haptic display of rigid bodies with surface properties", IEEE Transactions on Visualization and

@@ -1,5 +1,5 @@
 /// @file
-/// The force loop: what the hand feels, tick by tick, from the newest set of contacts.
+/// The force loop: the forces on the hand, tick by tick, from the newest set of contacts.
 
 #pragma once
 
@@ -23,106 +23,119 @@ namespace firstcontact {
 /// A value of a device that moves joints of its tool: at 0 they are open, at 1 closed.
 struct GripMapping {
   struct Joint {
-    std::size_t joint = 0;  ///< Of the tool.
-    double open = 0.0;      ///< [rad or m]
-    double closed = 0.0;    ///< [rad or m]
+    std::size_t joint = 0;  ///< Index of the joint of the tool.
+    double open = 0.0;      ///< [rad or m]  Position where the value is 0.
+    double closed = 0.0;    ///< [rad or m]  Position where the value is 1.
   };
   std::vector<Joint> joints;
-  int button = -1;       ///< While it is pressed the grip closes, else it opens; -1: by the device.
-  double seconds = 0.5;  ///< [s]  > 0  From open to closed by the button.
+  /// Button that closes the grip while it is pressed, else the grip opens; -1: by the device.
+  int button = -1;
+  double seconds = 0.5;  ///< [s]  Time from open to closed by the button; > 0.
 };
 
-/// Where a device's handle H puts the body B of its tool.
+/// The map from the pose of a device's handle H to the pose of the body B of its tool.
 ///
-/// The handle's way from a reference pose is turned by R_WD, its translation scaled, and added to
-/// the reference pose of the body: at first the start of the tool. When the clutch is let go, the
-/// references are where handle and god-object are then. So a clutch never leads through a wall.
+/// The motion of the handle from a reference pose is turned by R_WD, and its translation is scaled.
+/// The map adds it to the reference pose of the body, at first the start of the tool. When the
+/// clutch is let go, the poses of handle and god-object become the references. So a clutch never
+/// moves a tool through a wall.
 struct DeviceMapping {
   DeviceKind kind = DeviceKind::pose;
   Eigen::Quaterniond R_WD = Eigen::Quaterniond::Identity();
-  double scale = 1.0;             ///< [-]  > 0  The tool goes so much farther than the handle.
-  Pose X_DH = {};                 ///< Reference of the handle at the start.
-  bool begins_at_handle = false;  ///< The first live pose is the reference instead.
-  int clutch_button = -1;    ///< While it is pressed the tool stays and no force acts; -1: none.
-  int dead_man_button = -1;  ///< Unless it is pressed the same holds; -1: none.
-  std::vector<GripMapping> grips = {};  ///< At most kMostGrips: of the device's values in order.
+  double scale = 1.0;             ///< [-]  Motion of the tool per motion of the handle; > 0.
+  Pose X_DH = {};                 ///< Reference pose of the handle at the start.
+  bool begins_at_handle = false;  ///< Whether the first live pose is the reference instead.
+  /// Button that keeps the tool in place without a force while it is pressed; -1: none.
+  int clutch_button = -1;
+  int dead_man_button = -1;  ///< Button that does the same while it is not pressed; -1: none.
+  /// Mappings of the device's values in order; at most kMostGrips.
+  std::vector<GripMapping> grips = {};
 };
 
-/// The limits of what a hand may feel, whatever the scene.
+/// The limits of the force on a hand, for any scene.
 struct HapticLimits {
-  double force = 10.0;           ///< [N]  >= 0  Length of the force.
-  double torque = 0.5;           ///< [N m]  >= 0
-  double force_slew = 20'000.0;  ///< [N/s]  > 0
-  double torque_slew = 1'000.0;  ///< [N m/s]  > 0
-  double grip_effort = 1.0;      ///< [J]  >= 0  Of each grip; its slew is 2000 of it a second.
-  std::int64_t fresh_ns = 50'000'000;   ///< [ns]  A contact set of this age acts in full...
-  std::int64_t stale_ns = 150'000'000;  ///< [ns]  ...and one of that age no more; >= fresh_ns.
-  std::int64_t ramp_ns = 200'000'000;   ///< [ns]  Forces grow so long after an engagement.
+  double force = 10.0;           ///< [N]  Length of the force; >= 0.
+  double torque = 0.5;           ///< [N m]  Length of the torque; >= 0.
+  double force_slew = 20'000.0;  ///< [N/s]  Rate of change of the force; > 0.
+  double torque_slew = 1'000.0;  ///< [N m/s]  Rate of change of the torque; > 0.
+  /// [J]  Effort of each grip; >= 0. It changes by at most 2000 times this a second.
+  double grip_effort = 1.0;
+  std::int64_t fresh_ns = 50'000'000;   ///< [ns]  Age up to which a contact set acts in full.
+  std::int64_t stale_ns = 150'000'000;  ///< [ns]  Age from which it acts no more; >= fresh_ns.
+  std::int64_t ramp_ns = 200'000'000;   ///< [ns]  Time over which forces grow after an engagement.
 };
 
+/// The options of a force loop.
 struct ForceLoopOptions {
   HapticLimits limits = {};
-  double tolerance = 1e-9;  ///< [m]  > 0  Of the projection.
-  int pivots = 64;          ///< > 0  Of the projection, at most.
+  double tolerance = 1e-9;  ///< [m]  Tolerance of the projection; > 0.
+  int pivots = 64;          ///< Most pivots of the projection; > 0.
 };
 
-/// Why a force is not that of the spring. Bits of ToolTick::faults.
+/// A reason why a force is not that of the spring. Bits of ToolTick::faults.
 enum class ForceFault : std::uint32_t {
   device = 1,      ///< The device is waiting, silent, lost or ended: the force is 0 at once.
   not_finite = 2,  ///< A number of the device is not finite: the force is 0 at once.
-  disengaged = 4,  ///< By the clutch or the dead man's button.
-  ramping = 8,     ///< Since the last engagement less than the ramp has passed.
+  disengaged = 4,  ///< The clutch or the dead man's button disengages the tool.
+  ramping = 8,     ///< Less than the ramp has passed since the last engagement.
   stale = 16,      ///< The contact set is older than fresh.
   limited = 32,    ///< The force or the torque was cut to its limit.
-  slewed = 64,     ///< Its change was.
+  slewed = 64,     ///< The change of the force or the torque was cut to its limit.
   unsolved = 128,  ///< The projection ended before its tolerance.
 };
 
-/// Their words in files, in this order.
+/// The words of `ForceFault` in files, in its order.
 inline constexpr std::array<const char*, 8> kForceFaultWords{
     "device", "not_finite", "disengaged", "ramping", "stale", "limited", "slewed", "unsolved"};
 
 /// A tick of one tool.
 struct ToolTick {
   DeviceState device;
-  Pose target;                                         ///< X_WB that the device asks for.
+  Pose target;                                         ///< The pose X_WB that the device wants.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    At the target's origin.
-  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About it.
-  ForceCommand asked = {};    ///< The same for the device, also what it does not drive.
-  ForceCommand command = {};  ///< That, cut in a wall session to what the device drives.
-  std::uint32_t faults = 0;   ///< Bits of ForceFault.
-  std::array<double, kMostGrips> grips{};  ///< [-]  In force: of the device, or by buttons.
+  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About the target's origin.
+  /// The force and the torque for the device, with components that it does not drive.
+  ForceCommand asked = {};
+  /// The same, cut in a wall session to the components that the device drives.
+  ForceCommand command = {};
+  std::uint32_t faults = 0;  ///< Bits of ForceFault.
+  /// [-]  Values of grips in force: by the device, or by buttons.
+  std::array<double, kMostGrips> grips{};
 };
 
 /// A tick of the force loop.
 struct ForceTick {
   std::int64_t time_ns = 0;
   std::array<ToolTick, kMostTools> tools = {};
-  std::uint32_t joints = 0;                                  ///< Of all tools.
-  std::array<double, kMostHapticJoints> joint_targets = {};  ///< [rad or m]  As devices ask.
-  std::array<double, kMostHapticJoints> joint_efforts = {};  ///< [N m or N]  Of contacts, felt.
-  std::uint64_t set = 0;                                     ///< Its sequence; 0 for none.
-  std::int64_t age_ns = 0;                                   ///< Of the set.
-  std::uint32_t contacts = 0;                                ///< Of the set.
-  std::uint32_t pressing = 0;                                ///< Limits of joints count, too.
+  std::uint32_t joints = 0;  ///< Number of joints of all tools.
+  /// [rad or m]  Positions that devices want.
+  std::array<double, kMostHapticJoints> joint_targets = {};
+  /// [N m or N]  Efforts of contacts that are felt.
+  std::array<double, kMostHapticJoints> joint_efforts = {};
+  std::uint64_t set = 0;       ///< Sequence number of the contact set; 0 for none.
+  std::int64_t age_ns = 0;     ///< [ns]  Age of the contact set.
+  std::uint32_t contacts = 0;  ///< Number of contacts of the set.
+  std::uint32_t pressing = 0;  ///< Number of contacts that press, with limits of joints.
   std::uint32_t pivots = 0;
 };
 
 /// Computes forces from device poses and the newest contact set.
 ///
-/// A force is that of the spring between the target and where contacts would let the god-object be:
-/// the sum of contact forces in Coulomb's cones. It is exactly 0 where no contact presses, however
-/// far the god-object lags behind. With damping the target and surfaces are where they will be
-/// after damping / stiffness seconds, so that forces stay in the cones. An effort of a joint is
-/// that of its own spring likewise.
+/// A force is that of the spring between the target and the god-object, as far as contacts permit
+/// the god-object to go: the sum of contact forces in Coulomb's cones. It is exactly 0 where no
+/// contact presses, however far the god-object lags behind. With damping, target and surfaces are
+/// extrapolated by damping / stiffness seconds, so that forces stay in the cones. The effort of a
+/// joint is that of its own spring likewise.
 ///
-/// Contacts may contradict each other, or need more pivots (ForceFault::unsolved). Then the last
-/// force stays that was solved. It is cut to the length of the springs' stretch, plus the way of
-/// surfaces.
+/// Contacts may contradict each other, or need more pivots (ForceFault::unsolved). Then the force
+/// that was solved last stays. It is cut to the length of the springs' stretch, plus the path of
+/// the surfaces.
 ///
 /// tick() allocates nothing, takes no lock, and makes no system call; its work is bounded.
 class FIRSTCONTACT_API ForceLoop {
  public:
+  /// Makes the loop of a scene.
+  ///
   /// @param mappings  one for each tool
   /// @throws std::invalid_argument if a number is out of its range
   ForceLoop(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
@@ -131,6 +144,8 @@ class FIRSTCONTACT_API ForceLoop {
   ForceLoop(ForceLoop&&) noexcept;
   ForceLoop& operator=(ForceLoop&&) noexcept;
 
+  /// Runs a tick.
+  ///
   /// @param now_ns   never less than before
   /// @param devices  one for each tool
   const ForceTick& tick(std::int64_t now_ns, const HapticContactSet& set,

@@ -1,5 +1,5 @@
 /// @file
-/// A scene that is felt: the tools in a user's hands and the bodies around them.
+/// A scene for haptic devices: the tools in a user's hands and the bodies around them.
 
 #pragma once
 
@@ -22,65 +22,68 @@ namespace firstcontact {
 /// The spring by which a device holds its god-object.
 struct HapticCoupling {
   double stiffness = 1000.0;       ///< [N/m]  > 0
-  double angular_stiffness = 1.0;  ///< [N m/rad]  > 0; about the tool's centre.
+  double angular_stiffness = 1.0;  ///< [N m/rad]  About the tool's centre; > 0.
   double damping = 0.0;            ///< [N s/m]  >= 0. It costs stability; see docs/haptics.md.
 };
 
-/// A joint of a tool. A spring pulls it to where the device wants it.
+/// A joint of a tool. A spring pulls it to the position that the device wants.
 struct HapticJoint {
   std::string name;
   double start = 0.0;                                       ///< [rad or m]  Within its limits.
-  double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]
-  double upper = std::numeric_limits<double>::infinity();   ///< [rad or m]  >= lower
-  double stiffness = 1.0;  ///< [N m/rad or N/m]  > 0  Of its spring.
+  double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]  Lower limit.
+  double upper = std::numeric_limits<double>::infinity();   ///< [rad or m]  Upper limit; >= lower.
+  double stiffness = 1.0;  ///< [N m/rad or N/m]  Stiffness of its spring; > 0.
 };
 
-/// A link of a tool: X_PL(q) = X_PJ, then a turn about an axis and a slide along it.
+/// A link of a tool.
 ///
-/// P is the parent, J the frame of the joint in it, q the coordinate of the joint.
+/// X_PL(q) = X_PJ, then a turn about an axis and a slide along it. P is the parent, J the frame of
+/// the joint in it, q the coordinate of the joint.
 struct HapticLink {
   std::string name;
-  std::optional<Shape> shape = {};         ///< None where it touches nothing.
-  std::optional<std::size_t> parent = {};  ///< A link before it in the list; else the tool's body.
+  std::optional<Shape> shape = {};  ///< None where it touches nothing.
+  /// A link before it in the list; none for the tool's body.
+  std::optional<std::size_t> parent = {};
   Pose X_PJ = {};
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< [-]  In J; not 0.
-  std::optional<std::size_t> joint = {};  ///< Of the tool; a link without one is fixed to P.
-  double turn = 0.0;                      ///< [-]  Angle by coordinate, or [rad/m].
-  double slide = 0.0;                     ///< [-]  Way by coordinate, or [m/rad].
-  double friction = 0.0;                  ///< [-]  >= 0
+  /// Index of the joint of the tool; a link without one is fixed to P.
+  std::optional<std::size_t> joint = {};
+  double turn = 0.0;      ///< [-]  Angle by coordinate; [rad/m] for a slider.
+  double slide = 0.0;     ///< [-]  Displacement by coordinate; [m/rad] for a turning joint.
+  double friction = 0.0;  ///< [-]  >= 0
 };
 
-/// A body in a user's hand. Its god-object is where contacts let it be.
+/// A body in a user's hand. Its god-object stays where contacts permit.
 ///
-/// With joints it is a hand or a gripper, and the device moves its fingers as well. Links that one
-/// joint connects, and links that no joint moves against each other, may overlap.
+/// A tool with joints is a hand or a gripper, and the device moves its fingers as well. Links that
+/// one joint connects may overlap. So may links that no joint moves against each other.
 struct HapticTool {
   std::string name;
   Shape shape;
-  Pose X_WB = {};                                  ///< Where the god-object begins: free.
-  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The centre that it turns about.
+  Pose X_WB = {};                                  ///< Pose at which the god-object begins; free.
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  Centre about which it turns.
   double friction = 0.0;                           ///< [-]  >= 0
   HapticCoupling coupling = {};
   std::vector<HapticJoint> joints = {};
   std::vector<HapticLink> links = {};
 };
 
-/// A body around the tools. It does not yield.
+/// A body around the tools. Contacts do not move it.
 struct HapticBody {
   std::string name;
   Shape shape;
-  Pose X_WB = {};                     ///< Where it rests if it has no course.
+  Pose X_WB = {};                     ///< Pose of a body without a course.
   std::optional<Motion> course = {};  ///< X_WB(t), t = time / HapticScene::duration.
   double friction = 0.0;              ///< [-]  >= 0
 };
 
-/// Tools and surroundings. The friction of a pair is the geometric mean of the two.
+/// Tools and their environment. The friction of a pair is the geometric mean of the two.
 struct HapticScene {
-  std::vector<HapticTool> tools;  ///< 1 or 2.
+  std::vector<HapticTool> tools;  ///< The tools; 1 or 2.
   std::vector<HapticBody> bodies;
-  double duration = 1.0;  ///< [s]  Of the courses; bodies rest afterwards.
-  /// [m]  > 0  Tools are kept at least so far from everything, to a few roundings, and rest at up
-  /// to one and a half of it. Default: 1e-4 of the reach of the smallest tool.
+  double duration = 1.0;  ///< [s]  Duration of the courses; bodies rest afterwards.
+  /// [m]  Distance that tools keep from everything, to a few roundings; > 0. They rest at up to one
+  /// and a half of it. Default: 1e-4 of the reach of the smallest tool.
   std::optional<double> contact_distance = {};
   /// Pairs that may pass through each other, by their numbers among the members: the tools, then
   /// the bodies, then the links that have a shape.

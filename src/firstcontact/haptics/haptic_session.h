@@ -15,10 +15,11 @@
 
 namespace firstcontact {
 
+/// The options of a haptic session.
 struct HapticSessionOptions {
   double force_rate = 4000.0;    ///< [Hz]  In (0, 1e6].
   double contact_rate = 1000.0;  ///< [Hz]  In (0, force_rate].
-  /// [ns]  >= 0  In virtual time a cycle of the contact loop takes so long, at least a tick.
+  /// [ns]  Virtual time that a cycle of the contact loop takes, at least a tick; >= 0.
   std::int64_t contact_latency_ns = 0;
   ContactLoopOptions contacts = {};
   ForceLoopOptions forces = {};
@@ -27,13 +28,15 @@ struct HapticSessionOptions {
 
 /// Steps a force loop and a contact loop in virtual time.
 ///
-/// The contact loop begins a cycle with the targets of a tick, and its contacts act from the tick
-/// on at which its latency is over. It leads targets of devices with regular samples by their
-/// velocity, to the middle of the ticks that feel its contacts.
+/// The contact loop begins a cycle with the targets of a tick. Its contacts act from the tick on at
+/// which its latency is over. Targets of devices with regular samples are extrapolated by their
+/// velocity, to the middle of the ticks that feel the contacts.
 class FIRSTCONTACT_API HapticSession {
  public:
-  /// @throws std::invalid_argument as ContactLoop and ForceLoop; a rate or the latency is out of
-  ///         its range
+  /// Makes a session at time 0.
+  ///
+  /// @throws std::invalid_argument as ContactLoop and ForceLoop; or a rate or the latency is out of
+  /// its range
   explicit HapticSession(HapticScene scene, const HapticSessionOptions& options = {});
   ~HapticSession();
   HapticSession(HapticSession&&) noexcept;
@@ -48,9 +51,10 @@ class FIRSTCONTACT_API HapticSession {
   /// The cycle that the last step has run; null where it ran none.
   [[nodiscard]] const HapticCycle* cycle() const;
 
-  [[nodiscard]] std::int64_t time_ns() const;          ///< [ns]  Of the next tick.
-  [[nodiscard]] std::int64_t force_period_ns() const;  ///< [ns]
-  [[nodiscard]] std::int64_t cycle_period_ns() const;  ///< [ns]  Latency included.
+  [[nodiscard]] std::int64_t time_ns() const;          ///< [ns]  Time of the next tick.
+  [[nodiscard]] std::int64_t force_period_ns() const;  ///< [ns]  Period of the force loop.
+  /// [ns]  Period of the contact loop, latency included.
+  [[nodiscard]] std::int64_t cycle_period_ns() const;
   [[nodiscard]] const ContactLoop& contacts() const;
   /// The contacts that the next tick will act on, if no cycle ends before.
   [[nodiscard]] const HapticContactSet& contact_set() const;
@@ -60,7 +64,7 @@ class FIRSTCONTACT_API HapticSession {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The mappings of a session's options, completed to one for each tool.
+/// Completes the mappings of a session's options to one for each tool.
 [[nodiscard]] FIRSTCONTACT_API std::vector<DeviceMapping> complete_mappings(
     const HapticScene& scene, const std::vector<DeviceMapping>& mappings);
 

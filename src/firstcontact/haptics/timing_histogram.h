@@ -1,5 +1,5 @@
 /// @file
-/// A histogram of durations that counts every one, late ones too.
+/// A histogram of durations.
 
 #pragma once
 
@@ -13,11 +13,11 @@ namespace firstcontact {
 
 /// Counts durations in buckets of an eighth of an octave, from 16 ns on.
 ///
-/// The number of buckets is fixed, so adding allocates nothing.
+/// Every duration counts, late ones too. The number of buckets is fixed, so adding allocates
+/// nothing.
 class FIRSTCONTACT_API TimingHistogram {
  public:
-  static constexpr std::size_t kBuckets =
-      320;  ///< Up to 2^44 ns; all that is longer is in the last.
+  static constexpr std::size_t kBuckets = 320;  ///< Up to 2^44 ns; the last holds all longer ones.
 
   void add(std::int64_t duration_ns) noexcept;
 
@@ -25,12 +25,12 @@ class FIRSTCONTACT_API TimingHistogram {
   [[nodiscard]] std::uint64_t count_of(std::size_t bucket) const noexcept {
     return counts_[bucket];
   }
-  /// [ns]  The first bucket begins at 0.
+  /// [ns]  The begin of a bucket; 0 for the first.
   [[nodiscard]] static std::int64_t begin_of(std::size_t bucket) noexcept;
   [[nodiscard]] std::int64_t greatest_ns() const noexcept { return greatest_; }
 
-  /// [ns]  A duration that at least this share of all do not exceed: the end of the bucket, or the
-  /// greatest. 0 where there is none.
+  /// [ns]  A duration that at least this share of all do not exceed: the end of a bucket, or the
+  /// greatest duration. 0 where there is none.
   ///
   /// @param share  in [0, 1]
   [[nodiscard]] std::int64_t quantile_ns(double share) const noexcept;

@@ -15,12 +15,13 @@
 
 namespace firstcontact {
 
+/// The options of a session on the wall clock.
 struct WallSessionOptions {
   double duration = 10.0;  ///< [s]  > 0
-  /// Requests SCHED_FIFO, a processor for each loop and locked memory; goes on without what is
-  /// refused.
+  /// Whether to request SCHED_FIFO, a processor for each loop and locked memory. The session goes
+  /// on without a request that is refused.
   bool real_time = true;
-  /// [ns]  >= 0  Slows the contact loop down by so much each cycle, to see what that does.
+  /// [ns]  Delay added to each cycle of the contact loop, to study its effect; >= 0.
   std::int64_t contact_delay_ns = 0;
 };
 
@@ -37,24 +38,26 @@ struct RealTimeGrant {
 struct WallSessionReport {
   RealTimeGrant granted = {};
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;     ///< That began more than a period after their time.
-  std::uint64_t skipped_ticks = 0;  ///< Whose time had passed before the one before them ended.
+  std::uint64_t late_ticks = 0;     ///< Ticks that began more than a period after their time.
+  std::uint64_t skipped_ticks = 0;  ///< Ticks whose time passed before the tick before them ended.
   std::uint64_t cycles = 0;
-  std::uint64_t unread_ticks = 0;   ///< That the caller was too slow to take; 0 if all were logged.
+  std::uint64_t unread_ticks = 0;   ///< Ticks that the caller was too slow to take.
   TimingHistogram tick_cpu = {};    ///< Thread CPU time of the force loop's body.
-  TimingHistogram tick_wall = {};   ///< Wall time of it.
+  TimingHistogram tick_wall = {};   ///< Wall time of the same.
   TimingHistogram tick_delay = {};  ///< From the time of a tick to its begin.
-  TimingHistogram cycle_wall = {};  ///< Of the contact loop.
+  TimingHistogram cycle_wall = {};  ///< Wall time of a cycle of the contact loop.
+  /// Thread CPU time of a cycle.
   TimingHistogram cycle_cpu = {};
-  TimingHistogram empty_delay = {};  ///< As tick_delay, of a loop that does nothing, before.
+  /// As tick_delay, measured before the session for a loop that does nothing.
+  TimingHistogram empty_delay = {};
 };
 
 /// Runs a session on the wall clock.
 ///
-/// Ticks and cycles are handed to the calling thread, which may write them down: it keeps neither
-/// loop from going on. A contact loop that is slow makes no tick late: the force loop goes on with
-/// the newest contacts there are, as HapticLimits say. Cycles lead targets of devices with regular
-/// samples by their velocity, for one period of the contact loop.
+/// Ticks and cycles are handed to the calling thread, which may write them down. It delays neither
+/// loop. A slow contact loop makes no tick late: the force loop goes on with the newest contacts
+/// there are, within HapticLimits. Targets of devices with regular samples are extrapolated by
+/// their velocity, for one period of the contact loop.
 ///
 /// @param options   as HapticSession, but without the latency: it is that of the machine
 /// @param devices   one for each tool
