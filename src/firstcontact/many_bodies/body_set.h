@@ -1,5 +1,5 @@
 /// @file
-/// Many moving bodies and the rules for their pairs: what the many-body queries take.
+/// Many moving bodies and the rules for their pairs: the input of the many-body queries.
 
 #pragma once
 
@@ -14,16 +14,19 @@
 
 namespace firstcontact {
 
-/// Moving bodies, numbered from 0. Replacing one body's shape or motion costs what that body
-/// needs; nothing else is rebuilt. Queries only read it, also from several threads at once.
+/// Moving bodies, numbered from 0.
+///
+/// Replacing the shape or the motion of one body rebuilds the data of that body only. Queries only
+/// read the set, also from several threads at once.
 class FIRSTCONTACT_API BodySet {
  public:
   explicit BodySet(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
 
   /// Adds a body and returns its number.
   std::size_t add(Shape shape, Motion X_WS);
-  void set_shape(std::size_t body, Shape shape);   ///< @throws std::out_of_range
-  void set_motion(std::size_t body, Motion X_WS);  ///< @throws std::out_of_range
+  void set_shape(std::size_t body, Shape shape);  ///< Replaces the shape. @throws std::out_of_range
+  /// Replaces the motion. @throws std::out_of_range
+  void set_motion(std::size_t body, Motion X_WS);
 
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   [[nodiscard]] const Shape& shape(std::size_t body) const { return bodies_[body].shape; }
@@ -32,7 +35,7 @@ class FIRSTCONTACT_API BodySet {
   [[nodiscard]] MovingShape moving_shape(std::size_t body) const {
     return {shape(body), motion(body)};
   }
-  /// The path of the centre of the body's hierarchy, one for each piece of its motion.
+  /// The paths of the centre of the body's hierarchy, one for each piece of its motion.
   [[nodiscard]] const std::vector<ConstantRatePath>& centre_path(std::size_t body) const {
     return bodies_[body].centre_path;
   }

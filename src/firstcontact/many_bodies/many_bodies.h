@@ -14,14 +14,17 @@
 
 namespace firstcontact {
 
+/// The options of queries of many bodies.
 struct ManyBodiesOptions {
-  FirstContactOptions pair;  ///< Of every pair; its margin is not used, the rules have it.
-  int threads = 0;           ///< At most; 0 for one on each core. Answers do not depend on it.
-  bool closest = false;      ///< answer_each_pair: also the closest approach of each.
-  bool all_contacts_in_time = false;  ///< So too, every interval of contact of each.
-  double time_resolution = 1e-3;      ///< [-]  Of these, see ContactInterval; in (0, 1].
-  /// Called now and then from the calling thread with the part that is done, in [0, 1]; for
-  /// first_contact the time proven free so far. May be empty.
+  FirstContactOptions pair;  ///< Options of every pair; `margin` is not used, as the rules have it.
+  int threads = 0;           ///< Most threads; 0 for one on each core. Answers do not depend on it.
+  bool closest = false;  ///< For answer_each_pair: also finds the closest approach of each pair.
+  /// For answer_each_pair: also finds every interval of contact of each pair.
+  bool all_contacts_in_time = false;
+  /// [-]  Resolution of the intervals, see ContactInterval; in (0, 1].
+  double time_resolution = 1e-3;
+  /// Called now and then from the calling thread with the fraction that is done, in [0, 1]. For
+  /// first_contact that is the time proven free so far. May be empty.
   std::function<void(double)> progress = {};
 };
 
@@ -48,10 +51,10 @@ class FIRSTCONTACT_API ManyBodiesWorkspace {
 ///
 /// Method: first_contact() of two bodies answers for the pairs that balls around the bodies cannot
 /// prove free. The time is walked in intervals, halved where the bodies sweep over many others.
-/// Within one, pairs come in the order of the times until which they are proven free. The first
-/// contact found ends the search of those that cannot touch before it.
+/// Within an interval, pairs come in the order of the times until which they are proven free. The
+/// first contact found ends the search of pairs that cannot touch before it.
 ///
-/// @returns the pairs that decide t; all of it but their contacts holds for all pairs
+/// @returns the pairs that determine t; all but their contacts holds for all pairs
 /// @throws std::invalid_argument if an option is outside its documented range.
 [[nodiscard]] FIRSTCONTACT_API SceneResult first_contact(const BodySet& bodies,
                                                          ManyBodiesWorkspace& workspace,

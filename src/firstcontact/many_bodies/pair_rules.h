@@ -17,8 +17,10 @@ namespace firstcontact {
 /// Two bodies by their index, first < second.
 using BodyPair = std::array<std::size_t, 2>;
 
-/// Rules for pairs of bodies and for groups of them. A pair that any rule ignores is not tested.
-/// Else its own margin holds; or the greatest that groups give it; or the general one.
+/// Rules for pairs of bodies and for groups of them.
+///
+/// A pair that any rule ignores is not tested. The margin of a tested pair is its own; or else the
+/// greatest that groups give it; or else the general one.
 class FIRSTCONTACT_API PairRules {
  public:
   /// Makes rules that ignore no pair.
@@ -28,20 +30,22 @@ class FIRSTCONTACT_API PairRules {
   ///         a body with itself, or a group that does not exist
   explicit PairRules(double margin = 0.0);
 
+  /// Ignores a pair.
   void ignore(const BodyPair& pair);
-  void set_margin(const BodyPair& pair, double margin);  ///< [m]
+  void set_margin(const BodyPair& pair, double margin);  ///< Sets the margin of a pair [m].
 
   /// Adds a group and returns its number. A body may be in several groups.
   std::size_t add_group(std::vector<std::size_t> bodies);
-  /// Ignores all pairs of a body of one group with a body of the other; of a group with itself, all
-  /// pairs in it.
+  /// Ignores all pairs of a body of one group with a body of the other. For a group and itself it
+  /// ignores all pairs in the group.
   void ignore_groups(std::size_t group, std::size_t other);
-  void set_group_margin(std::size_t group, std::size_t other, double margin);  ///< [m]
+  /// Sets the margin of such pairs [m].
+  void set_group_margin(std::size_t group, std::size_t other, double margin);
 
   /// [m]  The margin of a pair; none where the pair is not tested.
   [[nodiscard]] std::optional<double> margin(const BodyPair& pair) const;
 
-  /// [m]  A bound for each of n bodies: no pair that it is in has a greater margin.
+  /// [m]  The greatest margin of any pair of each of n bodies, as an upper bound.
   [[nodiscard]] std::vector<double> greatest_margins(std::size_t n) const;
 
   /// [m]  A lower bound of all margins: no pair has a smaller one.
@@ -49,7 +53,7 @@ class FIRSTCONTACT_API PairRules {
 
  private:
   struct Rule {
-    std::optional<double> margin;  // none: ignored
+    std::optional<double> margin;  // None: ignored.
   };
   struct GroupRule {
     std::size_t group;
@@ -66,7 +70,7 @@ class FIRSTCONTACT_API PairRules {
   double least_;
   std::unordered_map<std::uint64_t, Rule> pairs_;
   std::vector<std::vector<std::size_t>> groups_;
-  std::vector<std::vector<bool>> is_member_;  // of each group, by body
+  std::vector<std::vector<bool>> is_member_;  // For each group and body.
   std::vector<GroupRule> group_rules_;
 };
 
