@@ -1,11 +1,11 @@
 /// @file
 /// Double-double arithmetic: an unevaluated sum of two doubles, about 106 bits.
 ///
-/// Serves the places where doubles lose what the promise needs: parameters of a motion, the
-/// difference of two far-away positions. Error bounds (relative, u = 2^-53): addition 3 u^2,
-/// multiplication 5 u^2, division 10 u^2 (Joldes, Muller, Popescu, "Tight and rigorous error
-/// bounds for basic building blocks of double-word arithmetic", ACM TOMS 44 (2017); algorithms
-/// AccurateDWPlusDW, DWTimesDW, DWDivDW), absent overflow and underflow.
+/// For computations that need more than doubles: parameters of a motion, the difference of two
+/// far-away positions. Error bounds (relative, u = 2^-53): addition 3 u^2, multiplication 5 u^2,
+/// division 10 u^2, without overflow and underflow. Source: Joldes, Muller, Popescu, "Tight and
+/// rigorous error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44 (2017);
+/// algorithms AccurateDWPlusDW, DWTimesDW, DWDivDW.
 
 #pragma once
 

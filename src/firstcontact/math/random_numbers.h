@@ -12,25 +12,26 @@
 
 namespace firstcontact {
 
-/// The standard fixes the bits of its engines, not those of its distributions. So these are own.
+/// A generator of random numbers, with distributions of its own.
 ///
-/// An expression that draws twice has no fixed order, but for one in braces.
+/// The standard fixes the bits of its engines, but not those of its distributions. An expression
+/// that draws twice has no fixed order, except between braces.
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
 
-  /// In [0, 1).
+  /// Draws a number in [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  /// From the first number to the second.
+  /// Draws a number from `low` to `high`.
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// In [0, count).
+  /// Draws an integer in [0, count).
   ///
   /// @param count  >= 1
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
 
-  /// In the ball of radius 1. Rejection from the cube takes 1.9 tries on average.
+  /// Draws a point in the ball of radius 1. Rejection from the cube takes 1.9 tries on average.
   Eigen::Vector3d in_ball() {
     Eigen::Vector3d point;
     do {
@@ -41,7 +42,7 @@ class RandomNumbers {
     return point;
   }
 
-  /// A vector of length 1.
+  /// Draws a vector of length 1.
   Eigen::Vector3d direction() {
     Eigen::Vector3d point;
     do {
