@@ -13,7 +13,7 @@
 
 namespace firstcontact {
 
-/// A mesh and what became of its file.
+/// A mesh and the report about its file.
 struct MeshReading {
   Mesh mesh;
   FileReport report;
@@ -23,20 +23,20 @@ struct MeshReading {
 ///
 /// The ending of the name gives the format, in upper or lower case: obj, stl, ply, off, dae, glb,
 /// gltf. Coordinates are taken as metres, those of a dae in its unit. In dae, glb and gltf files
-/// the transforms of nodes act, morphs have the weights that the file states, and skins the pose of
+/// the transforms of nodes act. Morphs have the weights that the file states, and skins the pose of
 /// the nodes that are their joints. The up axis of a dae is not turned, but reported.
 ///
-/// A polygon becomes triangles inside of it: a fan about its first corner where that is right, as
-/// it is for convex ones, else a triangulation of the polygon as it appears along the coordinate
-/// axis nearest to its normal. A polygon that crosses itself stays a fan, with a warning. The
-/// report counts polygons that are concave, and warns of those that are not planar within 1e-5 of
-/// the diagonal of the mesh: their surface depends on the triangulation, by at most the deviation
-/// that it names.
+/// A polygon becomes triangles inside of it. A fan about its first corner is taken where it is
+/// right, as it is for convex polygons. Otherwise the polygon is triangulated as it appears along
+/// the coordinate axis nearest to its normal. A polygon that crosses itself stays a fan, with a
+/// warning. The report counts concave polygons. It warns of polygons that are not planar within
+/// 1e-5 of the diagonal of the mesh: their surface depends on the triangulation. The warning names
+/// the deviation, which bounds that dependence.
 ///
-/// An element of one or two corners is a point or an edge: a triangle with repeated corners; in
+/// An element of one or two corners is a point or an edge: a triangle with repeated corners. In
 /// dae, glb and gltf files these are left out, as they are drawings there. Materials, normals,
-/// colours and texture coordinates are left out. What could hold or place geometry and is not
-/// understood is refused. The report lists what was left out. The locale changes nothing.
+/// colours and texture coordinates are left out. An unknown element that could hold or place
+/// geometry is refused. The report lists all that was left out. The locale changes nothing.
 ///
 /// The file must not shrink while it is read.
 ///
@@ -46,7 +46,7 @@ struct MeshReading {
 [[nodiscard]] FIRSTCONTACT_API MeshReading read_mesh_file(const std::filesystem::path& path,
                                                           const ReadingOptions& options = {});
 
-/// The mesh of read_mesh_file() alone.
+/// Reads the mesh of read_mesh_file() alone.
 [[nodiscard]] FIRSTCONTACT_API Mesh read_mesh(const std::filesystem::path& path);
 
 /// Parses Wavefront OBJ text; the mesh is not welded, and vertices keep the file's order.
@@ -58,10 +58,10 @@ struct MeshReading {
 /// @throws ParseError  as read_mesh; also on free-form curves and surfaces
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_obj(std::string_view text, const std::string& source);
 
-/// Parses binary or ASCII STL, whichever it is: a soup of three vertices a triangle, not welded.
+/// Parses binary or ASCII STL: a soup of three vertices a triangle, not welded.
 ///
-/// A file is binary if its size fits its count, or if it is not text that begins with `solid`.
-/// Text may hold several solids.
+/// A file is binary if its size fits its count, or if it is not text that begins with `solid`. Text
+/// may hold several solids.
 ///
 /// @throws ParseError  as read_mesh; also where a binary file's size contradicts its count, but for
 ///         blanks or zeros at its end; where the last `endsolid` is missing

@@ -17,7 +17,7 @@
 
 namespace firstcontact {
 
-/// Points and what became of their file.
+/// Points and the report about their file.
 struct PointReading {
   std::vector<Eigen::Vector3d> points;
   FileReport report;
@@ -26,29 +26,33 @@ struct PointReading {
 /// Reads the points of a cloud in double precision, as they are numbered in the file.
 ///
 /// The ending of the name gives the format, in upper or lower case: ply, pcd or xyz. Coordinates
-/// are taken as metres; colours, normals and what else there is are passed over. The locale
-/// changes nothing. The file must not shrink while it is read.
+/// are taken as metres. Colours, normals and all other data are passed over. The locale changes
+/// nothing. The file must not shrink while it is read.
 ///
 /// @throws ParseError  one line with path, place and what was expected: the file cannot be opened,
 ///         is malformed or cut off, has a coordinate that is not finite, or no point at all
 [[nodiscard]] FIRSTCONTACT_API PointReading read_points_file(const std::filesystem::path& path,
                                                              const ReadingOptions& options = {});
 
-/// The points of read_points_file() alone.
+/// Reads the points of read_points_file() alone.
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> read_points(
     const std::filesystem::path& path);
 
 /// Parses PCD 0.7 of the Point Cloud Library: ascii, binary and binary_compressed, any order and
-/// type of fields. A point with a coordinate that is NaN is missing, by the format, and left out:
-/// those after it count one less. The viewpoint is not applied.
+/// type of fields.
+///
+/// By the format a point with a coordinate that is NaN is missing. It is left out, and the points
+/// after it move up by one index. The viewpoint is not applied.
 ///
 /// @throws ParseError  as read_points
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> parse_pcd(std::string_view data,
                                                                       const std::string& source);
 
 /// Parses XYZ: a point a line, `x y z` and anything after it, between blanks, commas or semicolons.
-/// `#` begins a comment, as does `//` at the start of a line. Before the points there may be one
-/// line of the columns' names, of which x, y and z are the first, and one of the number of points.
+///
+/// `#` begins a comment, as does `//` at the start of a line. Before the points there may be two
+/// lines: one with the names of the columns, of which x, y and z are the first, and one with the
+/// number of points.
 ///
 /// @throws ParseError  as read_points; also on decimal commas, on files of atoms, and where the
 ///         number of points is another
