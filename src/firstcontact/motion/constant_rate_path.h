@@ -25,7 +25,7 @@ struct ConstantRateSegment {
   double t_end = 1.0;
   DoubleDoubleVector3 p_WQ;                     ///< [m]  Pivot at t_begin.
   DoubleDoubleVector3 p_BQ;                     ///< [m]  Pivot in the body frame.
-  DoubleDoubleVector3 velocity;                 ///< [m per step]  Of the pivot.
+  DoubleDoubleVector3 velocity;                 ///< [m per step]  Velocity of the pivot.
   DoubleDoubleVector3 axis;                     ///< [-]  Unit, world frame; unused when rate is 0.
   DoubleDouble rate;                            ///< [rad per step]  >= 0.
   std::array<DoubleDoubleVector3, 3> rotation;  ///< [-]  Columns of R_WB at t_begin.
@@ -50,16 +50,17 @@ class FIRSTCONTACT_API ConstantRatePath {
   [[nodiscard]] const Eigen::Vector3d& axis() const { return axis_; }
   [[nodiscard]] double rate() const { return rate_.hi; }  ///< [rad per step]  >= 0, rounded.
 
-  /// [m per step]  Of the pivot Q: the point of the axis nearest to C.
+  /// [m per step]  Velocity of the pivot Q: the point of the axis nearest to C.
   [[nodiscard]] const DoubleDoubleVector3& pivot_velocity() const { return velocity_; }
-  [[nodiscard]] const DoubleDoubleVector3& pivot_begin() const { return p_WQ_; }  ///< [m]
+  /// [m]  Pivot at t_begin.
+  [[nodiscard]] const DoubleDoubleVector3& pivot_begin() const { return p_WQ_; }
 
   /// [m]  Distance of C from the axis; constant over the piece.
   [[nodiscard]] double lever_length() const { return lever_length_; }
 
   /// [m]  Bound of |exact - stored| for C, all roundings of the parameters included.
   [[nodiscard]] double position_error() const { return position_error_; }
-  /// [-]  Bound of |exact - stored| for the rotation: times a point's distance from C.
+  /// [-]  Bound of |exact - stored| for the rotation; it acts times a point's distance from C.
   [[nodiscard]] double rotation_error() const { return rotation_error_; }
 
   struct State {

@@ -1,5 +1,5 @@
 /// @file
-/// In-between motions: the place of a body at every instant of the step.
+/// In-between motions: the pose of a body at every instant of the step.
 
 #pragma once
 
@@ -22,32 +22,34 @@ enum class Between {
   screw,              ///< One rotation about, and one translation along, one axis.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of `Between` in files and in Python, in its order.
 inline constexpr std::array<const char*, 2> kBetweenWords{"constant_velocity", "screw"};
 
 /// One piece of a motion of constant rates, from the end of the piece before it.
 struct ConstantRatePiece {
-  double t_end = 1.0;                                         ///< [-]  In (0, 1].
-  Pose X_WB;                                                  ///< Where the piece begins.
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]    Of the pivot, world frame.
-  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World frame; any turns.
+  double t_end = 1.0;  ///< [-]  In (0, 1].
+  Pose X_WB;           ///< Where the piece begins.
+  /// [m]  Displacement of the pivot, world frame.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  /// [rad]  Axis times angle, world frame; any number of turns.
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();
 };
 
 /// The motion X_WB(t) of a rigid body over the step, t in [0, 1]. Immutable; cheap to share.
 ///
-/// The motion contract. A motion is a sequence of pieces, each of which is smooth and rigid and
-/// runs from breaks()[k] to breaks()[k + 1]. Of a piece the algorithms know only its path: the
-/// pose and twist at t, and a bound of the acceleration of every point along every direction
-/// that holds to the piece's end. The motion is the exact real-number function that the doubles
-/// below define; `path` states how far its arithmetic may deviate from it.
+/// The motion contract: a motion is a sequence of pieces, each of which is smooth and rigid. Piece
+/// k runs from breaks()[k] to breaks()[k + 1]. The algorithms know only the path of a piece: the
+/// pose and twist at t, and a bound of accelerations. The bound holds for every point and
+/// direction, up to the end of the piece. The motion is the exact real-number function that the
+/// doubles below define; `path` states how far its arithmetic may deviate from that function.
 ///
 /// All factories throw std::invalid_argument on NaN, infinities, zero quaternions or axes.
 class FIRSTCONTACT_API Motion {
  public:
-  /// Rests at `pose`.
+  /// A motion that rests at `pose`.
   static Motion fixed(const Pose& pose = {});
 
-  /// Moves the body origin on a line and turns the body at a constant rate.
+  /// Moves the origin of the body on a line and turns the body at a constant rate.
   ///
   /// T(t) = T(0) + t translation, R(t) = Rot(rotation_vector t) R(0).
   ///
@@ -62,7 +64,7 @@ class FIRSTCONTACT_API Motion {
   /// axis is the one whose first non-zero component is positive.
   static Motion constant_velocity(const Pose& from, const Pose& to);
 
-  /// Rotates by angle t about, and translates by (translation t) along, one axis, from the start
+  /// Rotates by angle t about one axis and translates by (translation t) along it, from the start
   /// pose.
   ///
   /// @param axis_point      [m]    a point on the axis, world frame
@@ -81,14 +83,14 @@ class FIRSTCONTACT_API Motion {
   static Motion waypoints(std::span<const double> times, std::span<const Pose> poses,
                           Between between = Between::constant_velocity);
 
-  /// Runs piece after piece, each with its own translation of a pivot Q of the body and rotation
-  /// about it.
+  /// Runs piece after piece, each with a translation of a pivot Q of the body and a rotation about
+  /// Q.
   ///
-  /// A simulator makes such motions: Q is the centre of mass, and a piece begins at the rounded
-  /// pose at which the one before it ended.
+  /// A simulator makes such motions: Q is the centre of mass. Each piece begins at the rounded pose
+  /// at which the piece before it ended.
   ///
   /// @param pieces  at least one; their ends increase, the last one is 1
-  /// @param p_BQ    [m]
+  /// @param p_BQ    [m]    the pivot Q, a point of the body
   static Motion constant_rates(std::span<const ConstantRatePiece> pieces,
                                const Eigen::Vector3d& p_BQ = Eigen::Vector3d::Zero());
 
@@ -106,7 +108,7 @@ class FIRSTCONTACT_API Motion {
 
   /// Compares two motions by their defining numbers: negative, zero or positive, a total order.
   ///
-  /// With it queries put two bodies in an order of their own and answer alike for A and B swapped.
+  /// By this order queries sort two bodies, and so answer alike for A and B swapped.
   [[nodiscard]] int compare(const Motion& other) const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// The relative motion of two bodies of constant rates, seen from the centre of the first.
+/// The relative motion of two bodies of constant rates, relative to the centre of the first.
 
 #pragma once
 
@@ -11,8 +11,10 @@
 
 namespace firstcontact {
 
-/// Two paths that share a piece of time. Differences of far-away positions are taken in
-/// double-double, so that large offsets common to both bodies cost no precision.
+/// Two paths that share a piece of time.
+///
+/// Differences of far-away positions are taken in double-double, so that large offsets common to
+/// both bodies cost no precision.
 class FIRSTCONTACT_API RelativeMotion {
  public:
   /// Prepares the motion of B relative to A over the piece that their paths share.

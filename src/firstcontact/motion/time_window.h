@@ -1,11 +1,11 @@
 /// @file
-/// A part of the step.
+/// Windows of time in the step.
 
 #pragma once
 
 namespace firstcontact {
 
-/// Both ends included.
+/// A window of time, both ends included.
 struct TimeWindow {
   double begin = 0.0;  ///< [-]
   double end = 1.0;    ///< [-]
