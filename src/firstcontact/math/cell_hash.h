@@ -10,8 +10,10 @@
 
 namespace firstcontact {
 
-/// Which cell of an edge a coordinate lies in. Those so far out that cells cannot be counted share
-/// the last one.
+/// Computes the cell of a coordinate on a line of cells. Cells too far out to be counted share the
+/// last one.
+///
+/// @param edge  length of a cell, in the unit of the coordinate; > 0
 ///
 /// @param edge  > 0, in the unit of the coordinate
 inline std::int64_t cell_along(double coordinate, double edge) {
@@ -20,7 +22,7 @@ inline std::int64_t cell_along(double coordinate, double edge) {
       std::fmin(std::fmax(std::floor(coordinate / edge), -kLast), kLast));
 }
 
-/// The hash of the integers that name a cell.
+/// A hash of the integers that name a cell.
 struct CellHash {
   template <std::size_t size>
   std::size_t operator()(const std::array<std::int64_t, size>& cell) const {

@@ -1,5 +1,5 @@
 /// @file
-/// Sets that are joined until nothing more belongs together.
+/// Disjoint sets that are joined step by step.
 
 #pragma once
 
@@ -17,6 +17,7 @@ class DisjointSets {
   explicit DisjointSets(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
+  /// The least member of the set of v.
   std::uint32_t root(std::uint32_t v) {
     while (parent_[v] != v) {
       parent_[v] = parent_[parent_[v]];
@@ -24,6 +25,7 @@ class DisjointSets {
     }
     return v;
   }
+  /// Joins the sets of a and b.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);

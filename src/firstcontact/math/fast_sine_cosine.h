@@ -17,12 +17,12 @@ namespace firstcontact {
 /// The code is inline, in the two lanes of one register, without branches that depend on an angle's
 /// quadrant.
 ///
-/// Derivation, u = 2^-53: for |angle| <= 10^6 the multiple k of pi/2 is below 2^20, so that its
-/// product with the first 33 bits of pi/2 is exact, and the rest of pi/2 times k errs by less than
-/// 2^-66; the two subtractions err by u |r| each, |r| <= 0.786. The Taylor remainders of degree 19
-/// and 18 are below 2^-58; the polynomials in z = r^2 err by less than u (their terms after the
-/// first are below |r|^3 / 6 and 0.31), and the last sum by half a unit. Beyond 10^6 the
-/// double-double reduction takes over.
+/// Derivation, u = 2^-53. For |angle| <= 10^6 the multiple k of pi/2 is below 2^20. So its product
+/// with the first 33 bits of pi/2 is exact, and the rest of pi/2 times k errs by less than 2^-66.
+/// The two subtractions err by u |r| each, |r| <= 0.786. The Taylor remainders of degree 19 and 18
+/// are below 2^-58. The polynomials in z = r^2 err by less than u, as their terms after the first
+/// are below |r|^3 / 6 and 0.31. The last sum errs by half a unit. Beyond 10^6 the double-double
+/// reduction takes over.
 ///
 /// @param a, b  [rad]  at most kMaximumAngle in size
 inline std::array<SineCosine, 2> fast_sine_cosine(double a, double b) {
@@ -60,10 +60,11 @@ inline std::array<SineCosine, 2> fast_sine_cosine(double a, double b) {
   return {{{sines[0], cosines[0]}, {sines[1], cosines[1]}}};
 }
 
-/// The same of one angle in double-double, |angle.lo| at most half a unit in the last place of hi.
+/// Computes sine and cosine of one angle in double-double, |angle.lo| at most half a unit in the
+/// last place of hi.
 ///
-/// Derivation: up to 10^6 the tail is below 2^-33, its square below 2^-66; it enters by the
-/// derivative, with another rounding of half a unit. The errors above sum up to 3.1 u.
+/// Derivation: up to 10^6 the tail is below 2^-33 and its square below 2^-66. The tail enters by
+/// the derivative, with another rounding of half a unit. The errors above sum up to 3.1 u.
 inline SineCosine fast_sine_cosine(const DoubleDouble& angle) {
   if (!(std::abs(angle.hi) <= 1e6)) {
     return sine_cosine(angle);

@@ -10,8 +10,8 @@ namespace firstcontact {
 
 namespace {
 
-// Intel SDM volume 1, sections 8.1.5 and 10.2.3: all exceptions masked, round to nearest, for x87
-// 64-bit precision, for SSE neither flush to zero nor denormals as zero.
+// Intel SDM volume 1, sections 8.1.5 and 10.2.3: all exceptions masked, round to nearest. For x87
+// 64-bit precision; for SSE neither flush to zero nor denormals as zero.
 constexpr std::uint32_t kSseControl = 0x1F80;
 constexpr std::uint16_t kX87Control = 0x037F;
 

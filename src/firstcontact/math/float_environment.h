@@ -22,14 +22,17 @@ struct FloatControl {
 }  // namespace detail
 #endif
 
-/// For its scope: round to nearest, gradual underflow (no flush to zero, no denormals as zero),
-/// full x87 precision, all exceptions masked. Whatever the host had set comes back at the end.
+/// A guard of the floating-point environment for its scope.
+///
+/// In the scope the unit rounds to nearest, x87 precision is full and all exceptions are masked.
+/// Underflow is gradual: no flush to zero, no denormals as zero. At the end the host's settings
+/// come back.
 ///
 /// The environment belongs to the calling thread: every worker thread makes its own guard. The
-/// host's sticky exception flags come back as they were, so nothing that the library raises can
-/// leak; with the x87 unit, which only `long double` uses, flags are left alone. Costs some
-/// nanoseconds. Compilers may move arithmetic past the register writes, so guard a function and
-/// compute in the functions that it calls.
+/// host's sticky exception flags come back as they were, so no exception of the library leaks. With
+/// the x87 unit, which only `long double` uses, flags are left alone. The cost is some nanoseconds.
+/// Compilers may move arithmetic past the register writes. So guard a function and compute in the
+/// functions that it calls.
 class FIRSTCONTACT_API FloatEnvironmentGuard {
  public:
   FloatEnvironmentGuard() noexcept;

@@ -23,7 +23,7 @@ bool contains_quarter(const Interval& quarters, double residue) {
   return first <= quarters.upper();
 }
 
-// Rounding x.hi + x.lo to x.hi errs by half a unit, the double-double by 2^-98 more.
+// The rounding of x.hi + x.lo to x.hi errs by half a unit, the double-double by 2^-98 more.
 constexpr double kPreciseError = 0x1p-98;
 
 Interval rounded(const DoubleDouble& x) {
@@ -46,7 +46,7 @@ Interval point_cosine(double x) {
   return x == 0.0 ? Interval(1.0) : rounded(precise_sine_cosine(x).cosine);
 }
 
-// A wave with its maxima where angle 2/pi is `crest` modulo 4, its minima opposite.
+// Encloses a wave with its maxima where angle 2/pi is `crest` modulo 4, its minima opposite.
 Interval wave(const Interval& angle, const Interval& at_lower, const Interval& at_upper,
               double crest) {
   const Interval quarters = angle * kTwoOverPi;

@@ -3,11 +3,11 @@
 ///
 /// Every operation returns an interval that contains each exact result of members of its operands.
 /// The rounding mode is never changed: it has to be round to nearest with gradual underflow (see
-/// float_environment.h). A bound is moved outwards by one or two units in the last place:
-/// x - (phi |x| + eta) with phi = u (1 + 2u), u = 2^-53, eta = 2^-1074, all rounded to nearest, is
-/// at most the predecessor of x (S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
-/// predecessor and successor in rounding to nearest", BIT 49 (2009), Theorem 2.2). Sums that are
-/// exact stay exact (Knuth's error-free transformation).
+/// float_environment.h). A bound is moved outwards by one or two units in the last place, as
+/// follows. With phi = u (1 + 2u), u = 2^-53, eta = 2^-1074, all rounded to nearest, x - (phi |x| +
+/// eta) is at most the predecessor of x. Source: S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond,
+/// "Computing predecessor and successor in rounding to nearest", BIT 49 (2009), Theorem 2.2. Sums
+/// that are exact stay exact (Knuth's error-free transformation).
 
 #pragma once
 
@@ -20,17 +20,19 @@
 
 namespace firstcontact {
 
-/// A closed, non-empty interval [lower, upper]; the bounds may be infinite. Where an operation
-/// cannot name a bound (NaN, overflow, division by zero) it returns the entire line.
+/// A closed, non-empty interval [lower, upper]; the bounds may be infinite.
+///
+/// Where an operation has no bound to give (NaN, overflow, division by zero), it returns the entire
+/// line.
 class Interval {
  public:
-  /// The entire line: nothing is known.
+  /// Makes the entire line: nothing is known.
   constexpr Interval() = default;
 
-  /// The point x; the entire line if x is NaN.
+  /// Makes the point x; the entire line if x is NaN.
   constexpr explicit Interval(double x) : Interval(x, x) {}
 
-  /// [lower, upper]; the entire line if a bound is NaN or they are in the wrong order.
+  /// Makes [lower, upper]; the entire line if a bound is NaN or they are in the wrong order.
   constexpr Interval(double lower, double upper) {
     if (lower <= upper) {
       lower_ = lower;
@@ -41,7 +43,7 @@ class Interval {
   [[nodiscard]] constexpr double lower() const { return lower_; }
   [[nodiscard]] constexpr double upper() const { return upper_; }
 
-  /// A member, close to the middle if the interval is bounded.
+  /// A member; near the middle if the interval is bounded.
   [[nodiscard]] double midpoint() const {
     const double middle = 0.5 * lower_ + 0.5 * upper_;
     return std::isnan(middle) ? 0.0 : std::clamp(middle, lower_, upper_);
@@ -114,7 +116,7 @@ inline Interval operator*(const Interval& a, const Interval& b) {
           detail::above(std::max(std::max(p, q), std::max(r, s)))};
 }
 
-/// The entire line if 0 is in b.
+/// Divides two intervals; the entire line if 0 is in b.
 FIRSTCONTACT_API Interval operator/(const Interval& a, const Interval& b);
 
 inline Interval& operator+=(Interval& a, const Interval& b) { return a = a + b; }
@@ -139,17 +141,20 @@ FIRSTCONTACT_API Interval abs(const Interval& a);
 /// x^2, never negative.
 FIRSTCONTACT_API Interval sqr(const Interval& a);
 
-/// Square root of the members that are not negative; the entire line if there are none.
+/// The square roots of the members that are not negative; the entire line if there are none.
 FIRSTCONTACT_API Interval sqrt(const Interval& a);
 
-/// Sine and cosine. Bounds of a point within kMaximumAngle are a few units in the last place
-/// apart (or 2^-97, whichever is more); beyond kMaximumAngle the answer is [-1, 1].
+/// Encloses the sine of an angle.
+///
+/// The bounds of a point within kMaximumAngle are a few units in the last place apart, or 2^-97,
+/// whichever is more. Beyond kMaximumAngle the answer is [-1, 1].
 ///
 /// @param angle  [rad]
 FIRSTCONTACT_API Interval sin(const Interval& angle);
+/// Encloses the cosine of an angle [rad], as sin() does.
 FIRSTCONTACT_API Interval cos(const Interval& angle);
 
-/// Contains the number hi + lo.
+/// Encloses the number hi + lo.
 inline Interval enclose(const DoubleDouble& x) { return Interval(x.hi) + Interval(x.lo); }
 
 }  // namespace firstcontact

@@ -2,7 +2,7 @@
 /// Vectors, matrices and rigid transforms of intervals.
 ///
 /// Every result contains each exact result of members of the operands. Components are independent:
-/// what a rotation ties together is lost, so that enclosures grow with each product.
+/// the dependence between the columns of a rotation is lost. So enclosures grow with each product.
 
 #pragma once
 
@@ -69,6 +69,7 @@ inline IntervalVector3 inflated(const IntervalVector3& a, double distance) {
   return {{a.c[0] + margin, a.c[1] + margin, a.c[2] + margin}};
 }
 
+/// A matrix of intervals, by its columns.
 struct IntervalMatrix3 {
   std::array<IntervalVector3, 3> columns;
 
@@ -106,8 +107,9 @@ inline IntervalMatrix3 hull(const IntervalMatrix3& a, const IntervalMatrix3& b) 
            hull(a.columns[2], b.columns[2])}};
 }
 
-/// The rotations by the angles about the axes: 1 + sin [u] + (1 - cos) [u]^2 applied to v, with
-/// 1 - cos = 2 sin^2(angle / 2).
+/// Encloses the rotations of v by the angles about the axes.
+///
+/// By 1 + sin [u] + (1 - cos) [u]^2 applied to v, with 1 - cos = 2 sin^2(angle / 2).
 ///
 /// @param axis   [-]    unit vectors
 /// @param angle  [rad]
@@ -118,16 +120,16 @@ inline IntervalVector3 rotated(const IntervalVector3& axis, const Interval& angl
   return v + sin(angle) * once + versine * cross(axis, once);
 }
 
-/// Contains rigid transforms X_WB.
+/// A set of rigid transforms X_WB.
 struct IntervalTransform {
   IntervalMatrix3 rotation;  ///< [-]  R_WB
   IntervalVector3 position;  ///< [m]  p_WB
 
-  /// p_WP of body point P.
+  /// The position p_WP of body point P.
   friend IntervalVector3 operator*(const IntervalTransform& X_WB, const IntervalVector3& p_BP) {
     return X_WB.position + X_WB.rotation * p_BP;
   }
-  /// X_WC = X_WB X_BC.
+  /// The pose X_WC = X_WB X_BC.
   friend IntervalTransform operator*(const IntervalTransform& X_WB, const IntervalTransform& X_BC) {
     return {X_WB.rotation * X_BC.rotation, X_WB * X_BC.position};
   }

@@ -1,5 +1,5 @@
 /// @file
-/// Numbers as text, whatever the locale: for files, errors and warnings.
+/// Numbers as text, in any locale the same: for files, errors and warnings.
 
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace firstcontact::detail {
 
-/// As few digits as give the number back: "0.25", "-1e-07", "nan".
+/// Writes a number with the fewest digits that give it back: "0.25", "-1e-07", "nan".
 inline std::string shortest(double number) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
-/// At most so many digits, as many as a person reads: "0.00123".
+/// Writes a number with at most `digits` digits, for a person to read: "0.00123".
 inline std::string rounded(double number, int digits) {
   std::array<char, 32> text{};
   const auto written = std::to_chars(text.data(), text.data() + text.size(), number,

@@ -1,11 +1,11 @@
 /// @file
-/// Proofs from a function's value and rate at one time: where it stays positive around it, and
-/// where its only root lies.
+/// Proofs from a function's value and rate at one time: a window in which it stays positive, and a
+/// window of its only root.
 ///
-/// Derivation: with |g''| <= K, g(t + y) lies between g + g' y - K y^2 / 2 and g + g' y + K y^2
-/// / 2. These one-sided parabolas take the place of interval Newton steps (R. E. Moore, R. B.
-/// Kearfott, M. J. Cloud, "Introduction to Interval Analysis", SIAM 2009, chapter 8): no interval
-/// of f is evaluated, only f at one time.
+/// Derivation: with |g''| <= K, g(t + y) lies between g + g' y - K y^2 / 2 and g + g' y + K y^2 /
+/// 2. These one-sided parabolas take the place of interval Newton steps: g is evaluated at one time
+/// only, never over an interval (R. E. Moore, R. B. Kearfott, M. J. Cloud, "Introduction to
+/// Interval Analysis", SIAM 2009, chapter 8).
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace firstcontact {
 
-/// A function g of time, at one time.
+/// The value and the rate of a function g of time, at one time.
 struct ValueAndRate {
   double value = 0.0;
   double rate = 0.0;
@@ -26,20 +26,20 @@ struct ValueAndRate {
   friend ValueAndRate operator-(const ValueAndRate& a) { return {-a.value, -a.rate}; }
 };
 
-/// The errors of both, and a bound of |g''| wherever conclusions are drawn; all >= 0.
+/// The errors of both, and a bound of |g''| over the window of the conclusion; all >= 0.
 struct CurvatureBound {
   double value_error = 0.0;
   double rate_error = 0.0;
   double curvature = 0.0;
 };
 
-/// The longest time tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau], rounded
-/// down.
+/// Finds the longest time tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau],
+/// rounded down.
 ///
 /// It is infinity where the gap never closes; 0 where it is not open or anything is NaN.
 ///
-/// In the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)), which does not cancel for closing pairs and also
-/// holds for receding ones.
+/// Method: the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)). It does not cancel for closing pairs, and
+/// also holds for receding ones.
 inline double time_to_close(double gap, double speed, double half_acceleration) {
   if (!(gap > 0.0)) {
     return 0.0;
@@ -54,7 +54,7 @@ inline double time_to_close(double gap, double speed, double half_acceleration) 
   return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
 }
 
-/// t + tau rounded down (T. J. Dekker's two-sum tells the direction), for t, tau >= 0.
+/// Computes t + tau rounded down, for t, tau >= 0. T. J. Dekker's two-sum gives the direction.
 inline double after(double t, double tau) {
   const double sum = t + tau;
   const double part = sum - t;
@@ -62,13 +62,13 @@ inline double after(double t, double tau) {
   return error < 0.0 ? std::nextafter(sum, 0.0) : sum;
 }
 
-/// The time for which g provably stays positive.
+/// Finds a time for which g provably stays positive.
 inline double time_positive(const ValueAndRate& g, const CurvatureBound& bound) {
   return time_to_close(g.value - bound.value_error, bound.rate_error - g.rate,
                        0.5 * bound.curvature);
 }
 
-/// An interval around x with one root of g, where `exists`.
+/// The answer of isolate_root(): an interval around x with one root of g, where `exists`.
 ///
 /// On [x - behind, x + ahead] g has one root and falls throughout. On [x - reach, x - behind) g is
 /// positive.
