@@ -1,5 +1,5 @@
 /// @file
-/// Two bodies that each follow a Motion, as a query sees them.
+/// The motions of two bodies that each follow a Motion, as a query uses them.
 
 #pragma once
 
@@ -14,9 +14,11 @@
 
 namespace firstcontact {
 
-/// Refers to the motions.
+/// The pair of two motions. Refers to the motions.
 class FIRSTCONTACT_API ConstantRatePair final : public PairMotion {
  public:
+  /// Makes the pair of two motions.
+  ///
   /// @param p_AC, p_BC  [m]  the bodies' points C, best the centres of their shapes
   /// @param resolution  [m]  as of RelativeMotion
   ConstantRatePair(const Motion& X_WA, const Motion& X_WB, const Eigen::Vector3d& p_AC,

@@ -55,8 +55,8 @@ ConstantRatePath::ConstantRatePath(const ConstantRateSegment& segment, const Eig
     }
   }
   lever_length_ = rounded_length(lever_cosine_);
-  // About 40 double-double operations lie between the stored parameters and the path, each within
-  // 10 u^2 = 2^-102 of its operands; the rate's error grows with the angle.
+  // About 40 double-double operations lie between the stored parameters and the path. Each is
+  // within 10 u^2 = 2^-102 of its operands. The rate's error grows with the angle.
   constexpr double kParameterError = 0x1p-96;
   const double angle = rate_.hi * (t_end_ - t_begin_);
   rotation_error_ = segment.rotation_error + kParameterError * (1.0 + angle);

@@ -8,7 +8,7 @@
 namespace firstcontact {
 namespace {
 
-/// Errors that ConstantRatePath states: of a column of its rotation, of its axis and its rate.
+/// Errors that ConstantRatePath states, for a column of its rotation, its axis and its rate.
 constexpr double kRotationError = 22.0 * 0x1p-53;
 constexpr double kAxisError = 0x1p-52;
 constexpr double kRateError = 0x1p-52;

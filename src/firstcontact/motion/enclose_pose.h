@@ -1,5 +1,5 @@
 /// @file
-/// Where a body can be during a window of time.
+/// Enclosures of the pose of a body over a window of time.
 
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace firstcontact {
 
-/// Contains R_WB and p_WC of the path's point C at every time of the window, for the exact motion.
+/// Encloses R_WB and p_WC of the path's point C at every time of the window, for the exact motion.
 ///
-/// About as wide as the motion is long, and a few roundings: the state in the middle is turned by
-/// the rest of the angle, which serves any number of turns.
+/// The width is about the length of the motion, and a few roundings. The state in the middle is
+/// turned by the rest of the angle. This serves any number of turns.
 ///
 /// @param t  [-]  within the path's piece
 FIRSTCONTACT_API IntervalTransform enclose_pose(const ConstantRatePath& path, const Interval& t);
 
-/// Contains X_WB at every time of the window, across all pieces that it touches.
+/// Encloses X_WB at every time of the window, across all pieces that it touches.
 ///
 /// @param t  [-]  within [0, 1]
 FIRSTCONTACT_API IntervalTransform enclose_pose(const Motion& motion, const Interval& t);

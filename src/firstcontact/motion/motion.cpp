@@ -12,14 +12,14 @@
 namespace firstcontact {
 namespace {
 
-/// Rounding of a handful of double-double operations, with room: 2^-98 of the operands.
+/// Rounding of some ten double-double operations: 2^-98 of the operands is above it.
 constexpr double kConstructionError = 0x1p-98;
 
-/// Beyond this a coordinate is refused: double-double products must neither overflow nor round
-/// below the smallest normal number.
+/// The greatest coordinate. With greater ones double-double products would overflow or round below
+/// the smallest normal number.
 constexpr double kMaximumCoordinate = 1e60;  // [m]
 
-/// Its reciprocal must not overflow.
+/// The least time after 0: its reciprocal must not overflow.
 constexpr double kLeastTime = 1e-200;
 
 struct Quaternion {
@@ -64,8 +64,9 @@ DoubleDoubleVector3 unit(int axis) {
   return e;
 }
 
-/// Columns of the rotation matrix of q / |q|: of R e = e + 2 (w v x e + v x (v x e)) / |q|^2 all
-/// that is not zero.
+/// Computes the columns of the rotation matrix of q / |q|.
+///
+/// By R e = e + 2 (w v x e + v x (v x e)) / |q|^2, without the terms that are zero.
 std::array<DoubleDoubleVector3, 3> rotation_columns(const Eigen::Quaterniond& rotation) {
   if (rotation.vec().isZero(0.0)) {
     return {unit(0), unit(1), unit(2)};
@@ -103,8 +104,8 @@ DoubleDouble precise_atan2(const DoubleDouble& y, const DoubleDouble& x) {
   return estimate + (y / r) * sc.cosine - (x / r) * sc.sine;
 }
 
-/// The sign of the exact sum of four products of doubles. Needed as it decides which way a
-/// rotation of nearly a half turn goes. Accumulates a non-overlapping expansion (Shewchuk 1997).
+/// Computes the sign of the exact sum of four products of doubles. It determines the direction of a
+/// rotation of almost a half turn. Accumulates a non-overlapping expansion (Shewchuk 1997).
 int sign_of_dot(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   std::array<double, 8> expansion{};
   int size = 0;
@@ -129,7 +130,7 @@ int sign_of_dot(const std::array<double, 4>& a, const std::array<double, 4>& b) 
   return 0;
 }
 
-/// The shortest rotation from one pose to the other.
+/// Finds the shortest rotation from one pose to the other.
 AxisAngle shortest_rotation(const Pose& from, const Pose& to) {
   const Eigen::Quaterniond& a = from.rotation;
   const Eigen::Quaterniond& b = to.rotation;
@@ -176,7 +177,7 @@ ConstantRateSegment at_rest(const Pose& pose) {
   return s;
 }
 
-/// The segment turns about its body origin; afterwards about Q, which moves as the origin did.
+/// Moves the pivot of a segment from the body origin to Q, which moves as the origin did.
 void move_pivot(ConstantRateSegment& s, const Eigen::Vector3d& p_BQ) {
   s.p_BQ = DoubleDoubleVector3(p_BQ);
   s.p_WQ = s.p_WQ + s.p_BQ.c[0] * s.rotation[0] + s.p_BQ.c[1] * s.rotation[1] +
@@ -196,7 +197,9 @@ ConstantRateSegment constant_velocity_segment(const Pose& start,
   return s;
 }
 
-/// `axis_point` in the world; the pivot becomes the point of the axis nearest to the start.
+/// Makes the segment of a screw.
+///
+/// @param axis_point  in the world; the pivot becomes the point of the axis nearest to the start
 ConstantRateSegment screw_segment(const Pose& start, const DoubleDoubleVector3& axis_point,
                                   const AxisAngle& turn, const DoubleDouble& translation) {
   ConstantRateSegment s = at_rest(start);
@@ -273,7 +276,7 @@ int compare_vectors(const DoubleDoubleVector3& a, const DoubleDoubleVector3& b) 
   return order;
 }
 
-/// The third column of a rotation follows from the others.
+/// Compares two segments. The third column of a rotation follows from the others.
 int compare_segments(const ConstantRateSegment& a, const ConstantRateSegment& b) {
   for (const auto number : {&ConstantRateSegment::t_begin, &ConstantRateSegment::t_end}) {
     if (const int order = compare_values(a.*number, b.*number); order != 0) {

@@ -1,5 +1,5 @@
 /// @file
-/// The motion contract: what the algorithms may ask of a motion, and nothing else.
+/// The motion contract: all that the algorithms may use of a motion.
 
 #pragma once
 

@@ -14,8 +14,9 @@ namespace firstcontact {
 /// This motion, which follows from these numbers alone, is the body's model motion. The exact
 /// motion of a point may depart from it. Take points within the radii for which the state was made,
 /// at distances d_A, d_B from the pivots of their bodies. Summed over both bodies, the departure is
-/// at most drift tau + (bend + bend_A d_A + bend_B d_B) tau^2 / 2,   0 <= tau <= time left of the
-/// piece. All four are zero for motions of constant rates, up to the rounding of the numbers here.
+/// at most
+///   drift tau + (bend + bend_A d_A + bend_B d_B) tau^2 / 2,   0 <= tau <= time left of the piece.
+/// All four are zero for motions of constant rates, up to the rounding of the numbers here.
 struct RelativeState {
   double t = 0.0;
   Eigen::Matrix3d R_WA = Eigen::Matrix3d::Identity();
@@ -29,7 +30,7 @@ struct RelativeState {
   double rate_A = 0.0;                               ///< [rad per step]  >= 0; about axis_A.
   double rate_B = 0.0;                               ///< [rad per step]  >= 0; about axis_B.
   Eigen::Vector3d pivot_velocity =
-      Eigen::Vector3d::Zero();  ///< [m per step]  Of B's pivot relative to A's.
+      Eigen::Vector3d::Zero();  ///< [m per step]  B's pivot relative to A's.
   double drift = 0.0;           ///< [m per step]
   double bend = 0.0;            ///< [m per step^2]
   double bend_A = 0.0;          ///< [per step^2]

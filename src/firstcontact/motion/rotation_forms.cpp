@@ -17,7 +17,7 @@ Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& rotation_vector) 
 }
 
 Pose pose_from_matrix(const Eigen::Matrix4d& matrix) {
-  constexpr double kRigid = 1e-9;  // [-]  Of the scene format.
+  constexpr double kRigid = 1e-9;  // [-]  Tolerance of the scene format.
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
   // Written so that NaN, also from an overflow, is refused too.
   const Eigen::Matrix3d defect = R.transpose() * R - Eigen::Matrix3d::Identity();

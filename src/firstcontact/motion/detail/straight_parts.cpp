@@ -18,23 +18,24 @@ namespace {
 
 constexpr std::size_t kMostParts = 10'000;
 
-/// [-]  Of the step: two times that are no farther apart are one, but for rounding.
+/// [-]  Fraction of the step up to which two times are one, but for rounding.
 constexpr double kSameTime = 4.0 * std::numeric_limits<double>::epsilon();
 
-/// [rad]  Up to here the shortest turn to where the motion is turns as the motion does.
+/// [rad]  Greatest angle at which the shortest turn to the motion's orientation turns as the motion
+/// does.
 constexpr double kShort = 3.0;
 
-/// [rad]  A body that is farther beside its motion has fallen back behind it.
+/// [rad]  A body that is turned away from its motion by more has fallen back behind it.
 constexpr double kOffCourse = 1e-3;
 
-/// [-]  Of a part: no division leaves less of it, as forces over no time are no forces.
+/// [-]  The least fraction of a part that a division leaves: forces over no time are no forces.
 constexpr double kLeastShare = 0.01;
 
 Vector3d shortest_turn(const Quaterniond& from, const Quaterniond& to) {
   return nearest_turn(to * from.conjugate(), Vector3d::Zero());
 }
 
-/// The straight piece, and how far a motion is from it.
+/// The straight piece of a part, and its distance from the motion.
 class Chord {
  public:
   Chord(const Motion& motion, double from, double to)
@@ -46,8 +47,8 @@ class Chord {
         turn_(rotation_between(motion, from, to)) {}
 
   struct Distance {
-    double place = 0.0;  ///< [m]  Between the origins.
-    double angle = 0.0;  ///< [rad]
+    double place = 0.0;  ///< [m]  Distance of the origins.
+    double angle = 0.0;  ///< [rad]  Angle between the orientations.
   };
   [[nodiscard]] Distance distance(double t) const {
     const double share = (t - from_) / length_;
@@ -70,7 +71,7 @@ class Chord {
   Vector3d turn_;
 };
 
-/// The script that bends most over a part.
+/// The script that bends most over a part, and its bound.
 struct Bend {
   double bound = 0.0;  ///< [m]
   std::size_t script = 0;
@@ -87,7 +88,7 @@ Bend greatest_bend(const std::vector<ScriptedMotion>& scripts, double from, doub
   return greatest;
 }
 
-/// The break of a motion that is nearest to the middle of a part, or the middle.
+/// Finds the break of a motion that is nearest to the middle of a part, or else the middle.
 double dividing_time(const Motion& motion, double from, double to) {
   const double middle = 0.5 * (from + to);
   const auto breaks = motion.breaks();

@@ -1,5 +1,5 @@
 /// @file
-/// How a step is divided where a body that moves by itself does not move straight.
+/// Divides a step into parts in which bodies with a given motion move almost straight.
 
 #pragma once
 
@@ -11,38 +11,40 @@
 
 namespace firstcontact::detail {
 
-/// A body that moves by itself, and that a step follows.
+/// A body with a motion of its own, which a step follows.
 struct ScriptedMotion {
   Motion motion;
-  double reach = 0.0;  ///< [m]  No point of the body is farther from its origin.
+  double reach = 0.0;  ///< [m]  Radius about the origin of the body that contains the body.
 };
 
-/// The rotation vector over a part of a motion: of one piece with all its turns, over several by
-/// the shortest way.
+/// Computes the rotation vector over a part of a motion. Within one piece it has all turns; over
+/// several pieces it is the shortest rotation.
 [[nodiscard]] Eigen::Vector3d rotation_between(const Motion& motion, double from, double to);
 
-/// The rotation vector that leads a body to where its motion is, also from where it is that fell
-/// back behind it: then by the shortest way.
+/// Computes the rotation vector that turns a body to the orientation of its motion.
 ///
-/// A turn of less than 3 rad leads there, but for rounding. A longer turn keeps its axis: it makes
-/// good where the body is behind or ahead about that axis, and nothing else.
+/// A turn of less than 3 rad reaches that orientation, but for rounding. A longer turn keeps its
+/// axis: it corrects the error of the body about that axis, and nothing else. A body that fell back
+/// behind its motion turns by the shortest rotation.
 ///
 /// @param rotation  of the body now
 [[nodiscard]] Eigen::Vector3d rotation_along(const Motion& motion, double from, double to,
                                              const Eigen::Quaterniond& rotation);
 
-/// [m]  How far at most any point of the body is from where a straight piece would have it: the
-/// origin on a line, the turn at a constant rate (rotation_between).
+/// [m]  Bounds the distance of any point of the body from its place on a straight piece. There the
+/// origin moves on a line and the body turns at a constant rate (rotation_between).
 ///
 /// Two bounds hold between two breaks of the motion. The vector between the origins has a second
-/// derivative of at most rate^2 lever. The angle between the orientations changes no faster than by
-/// the difference of the two rates. Rounding is not charged: `verify` proves the run by itself.
+/// derivative of at most rate^2 lever. The angle between the orientations changes at most at the
+/// difference of the two rates. Rounding is not charged: `verify` proves the run by itself.
 ///
 /// @param from, to  in [0, 1], from < to
 [[nodiscard]] double bend_bound(const ScriptedMotion& script, double from, double to);
 
-/// The ends of the parts of a step, of which each is straight to the tolerance for all scripts: the
-/// last one is `to`. Parts end at breaks of a motion where there are any, else in the middle.
+/// Divides a step into parts, each of which is straight to the tolerance for all scripts. Returns
+/// their ends; the last one is `to`.
+///
+/// Parts end at breaks of a motion where there are any, else in the middle.
 ///
 /// @param tolerance  [m]  > 0
 /// @returns  nothing where more than 10,000 parts would be needed

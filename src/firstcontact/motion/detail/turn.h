@@ -11,6 +11,7 @@
 
 namespace firstcontact::detail {
 
+/// The rotation by a rotation vector [rad].
 [[nodiscard]] inline Eigen::Quaterniond turn(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   if (!(angle > 0.0)) {
@@ -19,7 +20,7 @@ namespace firstcontact::detail {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
 }
 
-/// The rotation vector that turns by q, of all their turns the one nearest to `expected`.
+/// The rotation vector of q that is nearest to `expected`, among those with any number of turns.
 [[nodiscard]] inline Eigen::Vector3d nearest_turn(const Eigen::Quaterniond& q,
                                                   const Eigen::Vector3d& expected) {
   constexpr double kWhole = 2.0 * std::numbers::pi;
