@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 
 constexpr float kUnknown = -std::numeric_limits<float>::infinity();
 
-/// Of what stands here in double precision.
+/// Factor for the roundings of the double-precision formulas of this file.
 constexpr double kRounding = 1.0 + 0x1p-40;
-/// Of single precision.
+/// Rounding of single precision.
 constexpr float kRoundingOfFloats = 0x1p-20f;
 
 BoxFront::Place place_of(const MovingPair& pair, const RelativeState& state) {

@@ -12,15 +12,16 @@
 
 namespace firstcontact::detail {
 
-/// A node and the boxes of it that take part.
+/// A node and some of its boxes.
 struct NodeBoxes {
   std::uint32_t node = 0;
   unsigned used = 0;
 };
 
+/// All boxes of the root node.
 inline NodeBoxes root(const Hierarchy& hierarchy) { return {0, hierarchy.nodes[0].used()}; }
 
-/// The boxes inside box `slot` of a node; or that box alone, where it is kept.
+/// The boxes inside box `slot` of a node; or that box alone, where `keep` is set.
 inline NodeBoxes opened(const Hierarchy& hierarchy, std::uint32_t node, int slot, bool keep) {
   if (keep) {
     return {node, 1u << slot};
@@ -29,7 +30,7 @@ inline NodeBoxes opened(const Hierarchy& hierarchy, std::uint32_t node, int slot
   return {child, hierarchy.nodes[child].used()};
 }
 
-/// Lane 4 i + j for each used box i of one node and j of another.
+/// The lanes 4 i + j for each used box i of one node and j of another.
 inline std::uint16_t lanes_of(unsigned boxes_a, unsigned boxes_b) {
   // Bit i of A's boxes moves to bit 4 i, where the product puts B's.
   const unsigned spread =
@@ -46,9 +47,9 @@ struct BoxPair {
   NodeBoxes B;
 };
 
-/// The contents of one lane: the two triangles, or the boxes that opening finds.
+/// Opens one lane: its two triangles, or the boxes inside its boxes.
 ///
-/// Where the sizes of two boxes differ much, only the larger one is opened.
+/// Where one box is much larger than the other, only the larger one is opened.
 inline BoxPair open_lane(const MovingPair& pair, std::uint32_t node_a, std::uint32_t node_b,
                          int lane, bool larger_a, bool larger_b) {
   const HierarchyNode& a = pair.A().nodes[node_a];
@@ -73,7 +74,7 @@ class BoxesAtInstant {
     frame_.horizon = 0.0f;
   }
 
-  /// Two of the boxes.
+  /// A pair of boxes.
   struct Lane {
     const BoxesAtInstant& boxes;
     const BoxBounds& bounds;
@@ -81,24 +82,25 @@ class BoxesAtInstant {
     std::uint32_t node_b;
     int index;
 
-    /// [m]  No points of the boxes are closer, in positions as computed from the state.
+    /// [m]  A lower bound of the distance of the boxes, in positions as computed from the state.
     [[nodiscard]] double gap() const {
       return static_cast<double>(bounds.gap[index]) * boxes.pair_.unit();
     }
-    /// [m]  The same in double precision.
+    /// [m]  The same bound in double precision.
     [[nodiscard]] double precise_gap() const {
       const BoxId a{node_a, static_cast<std::uint32_t>(index / HierarchyNode::kWidth)};
       const BoxId b{node_b, static_cast<std::uint32_t>(index % HierarchyNode::kWidth)};
       return MovingPair::gap(boxes.pair_.place_A(boxes.state_, a),
                              boxes.pair_.place_B(boxes.state_, b));
     }
-    /// [m]  The same along a unit vector only.
+    /// [m]  The same bound in double precision, along the unit vector n only.
     [[nodiscard]] double gap_along(const Eigen::Vector3d& n) const {
       const BoxId a{node_a, static_cast<std::uint32_t>(index / HierarchyNode::kWidth)};
       const BoxId b{node_b, static_cast<std::uint32_t>(index % HierarchyNode::kWidth)};
       return MovingPair::gap_along(n, boxes.pair_.place_A(boxes.state_, a),
                                    boxes.pair_.place_B(boxes.state_, b));
     }
+    /// The contents of the lane, as open_lane() has them.
     [[nodiscard]] BoxPair inside() const {
       return open_lane(boxes.pair_, node_a, node_b, index, (bounds.larger_a >> index & 1u) != 0,
                        (bounds.larger_b >> index & 1u) != 0);
@@ -115,10 +117,11 @@ class BoxesAtInstant {
     }
   }
 
-  /// Bounds the boxes of a pair of nodes, or of two pairs in less than twice the time.
+  /// Bounds the boxes of a pair of nodes.
   void bound(std::uint32_t a, std::uint32_t b, BoxBounds& bounds) const {
     pair_.bound(frame_, a, b, bounds);
   }
+  /// Bounds the boxes of two pairs of nodes in less than twice the time.
   void bound(std::uint32_t a, std::uint32_t b, BoxBounds& bounds, std::uint32_t other_a,
              std::uint32_t other_b, BoxBounds& other_bounds) const {
     pair_.bound(frame_, a, b, bounds, other_a, other_b, other_bounds);

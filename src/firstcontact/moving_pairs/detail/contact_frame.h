@@ -17,7 +17,7 @@ struct ContactFrame {
   const MovingPair& pair;
   double t;
   Eigen::Vector3d p_WC;  ///< [m]  Centre of A's hierarchy in the world at t.
-  double beside = 0.0;   ///< [m]  As close_features() has it; 0 where all are asked for.
+  double beside = 0.0;   ///< [m]  As in close_features(); 0 where all features are wanted.
 };
 
 }  // namespace firstcontact::detail

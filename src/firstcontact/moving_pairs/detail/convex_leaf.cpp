@@ -12,7 +12,7 @@ const Vector3d& first_corner(const Hierarchy& hierarchy, std::uint32_t triangle)
   return hierarchy.vertices[hierarchy.triangles[triangle][0]];
 }
 
-/// Where on a triangle a point of it lies.
+/// Finds the feature of a triangle on which a point of it lies.
 TriangleFeature feature_at(const Triangle& T, const Vector3d& p) {
   return triangle_distance({p, p, p}, T).feature_B;
 }
@@ -66,7 +66,7 @@ ClosestFeatures closest_features(const MovingPair& pair, const RelativeState& st
                                  std::uint32_t a, std::uint32_t b, double within) {
   const ConvexLeaf leaf(pair, state, a, b);
   ConvexGuess guess = guess_of(leaf);
-  // Ends early only where the gap proves more than is asked.
+  // The search ends early only where the gap proves more than is wanted.
   constexpr double kAnyGap = 1e-12;
   const ConvexClosest found = leaf.closest({.least = within, .near = kAnyGap}, guess);
   ClosestFeatures closest;

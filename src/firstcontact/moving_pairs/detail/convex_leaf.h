@@ -18,8 +18,10 @@ namespace firstcontact::detail {
 /// Two leaves of a pair, placed in the frame of a state; a triangle is a convex set as well.
 class ConvexLeaf {
  public:
-  /// @param pair   of which one is a convex set, or both are
-  /// @param a, b   triangles in the hierarchies' order, where a body is asked by its triangles
+  /// Places two leaves.
+  ///
+  /// @param pair   at least one of its bodies is a convex set
+  /// @param a, b   triangles in the hierarchies' order, for a body that is queried by its triangles
   ConvexLeaf(const MovingPair& pair, const RelativeState& state, std::uint32_t a, std::uint32_t b);
   ConvexLeaf(const ConvexLeaf&) = delete;
   ConvexLeaf& operator=(const ConvexLeaf&) = delete;
@@ -27,29 +29,31 @@ class ConvexLeaf {
   [[nodiscard]] const PlacedConvex& A() const { return *A_; }
   [[nodiscard]] const PlacedConvex& B() const { return *B_; }
 
-  /// As closest_points().
+  /// Finds the closest points of the leaves, as closest_points().
   [[nodiscard]] ConvexClosest closest(const ConvexWanted& wanted, ConvexGuess& guess) const {
     return closest_points(*A_, *B_, wanted, guess);
   }
 
  private:
-  /// Seen from its first corner, in the axes of its body: so a guess holds at other times.
+  /// Makes the core of a triangle from its first corner, in the axes of its body. So a guess holds
+  /// at other times.
   const ConvexCore& triangle_core(const Hierarchy& hierarchy, std::uint32_t triangle);
 
-  std::array<Eigen::Vector3d, 3> corners_;  // Of the triangle; two of them are never asked here.
+  // The corners of the triangle. At most one body is queried by triangles here.
+  std::array<Eigen::Vector3d, 3> corners_;
   ConvexCore triangle_;
   std::optional<PlacedConvex> A_;
   std::optional<PlacedConvex> B_;
 };
 
-/// A first guess: from the centre of the one towards that of the other.
+/// A first guess of the direction: from the centre of A towards that of B.
 [[nodiscard]] ConvexGuess guess_of(const ConvexLeaf& leaf);
 
-/// The closest points of two leaves, with the features of the triangle if one is; the set's is its
-/// face. Pairs that are proven farther apart than `within` have any points that are.
+/// Finds the closest points of two leaves, with their features. A set has its face as the feature.
+/// Pairs that are proven farther apart than `within` get any points that are so.
 ///
 /// The points are those of closest_points(), turned about their middle to lie along the direction
-/// that separates best: it is accurate where they nearly coincide.
+/// that separates best. This direction is accurate where the points almost coincide.
 [[nodiscard]] ClosestFeatures closest_features(
     const MovingPair& pair, const RelativeState& state, std::uint32_t a, std::uint32_t b,
     double within = std::numeric_limits<double>::infinity());

@@ -32,7 +32,7 @@ OwnBox own_box(const HierarchyNode& node, int slot, double unit) {
   return box;
 }
 
-/// Makes a box that was placed as at t = 0 one of t, and adds how it changes.
+/// Turns a box placed as at t = 0 into one of t, and adds its rates of change.
 void deform(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d& R, OwnBox& own,
             PlacedBox& placed) {
   const OwnBox to =
@@ -59,7 +59,7 @@ void place_corners(const Hierarchy& hierarchy, const HierarchyNode& node, int sl
   }
 }
 
-/// Its velocity is that which its body sees.
+/// Places a box. Its velocity is relative to its body.
 PlacedBox place(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d& R,
                 const Vector3d& origin, const Vector3d& pivot) {
   PlacedBox placed;
@@ -83,7 +83,7 @@ PlacedBox place(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d&
   return placed;
 }
 
-/// How far the box reaches from its centre.
+/// [m]  The extent of the box along n from its centre.
 double extent_along(const PlacedBox& box, const Vector3d& n) {
   if (box.core != nullptr) {
     return n.dot(box.p_core) + box.core->support_bound(box.R_core.transpose() * n);
@@ -91,7 +91,7 @@ double extent_along(const PlacedBox& box, const Vector3d& n) {
   return box.is_triangle ? (box.corners * n).maxCoeff() : box.extent.dot((box.axes * n).cwiseAbs());
 }
 
-/// [m per step]  How fast that grows at most.
+/// [m per step]  Bound of the growth of that extent.
 double growth_along(const PlacedBox& box, const Vector3d& n) {
   if (!box.deforms) {
     return 0.0;
@@ -100,13 +100,14 @@ double growth_along(const PlacedBox& box, const Vector3d& n) {
                          : box.growth.dot((box.axes * n).cwiseAbs());
 }
 
-/// The extent of a whole shape is its radius in every direction.
+/// A direction and the gap of two boxes along it. The extent of a whole shape is its radius in
+/// every direction.
 struct Separation {
   Vector3d n;  // from A to B
   double gap;
 };
 
-/// Until use() returns true.
+/// Calls use(direction) for each direction until it returns true.
 template <class Use>
 void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) {
   const Vector3d d = b.centre - a.centre;
@@ -129,7 +130,7 @@ void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) 
 
 namespace {
 
-/// Each support point of a hull looks at all of its corners.
+/// The most corners of a hull that is taken as a set: each support point visits all of them.
 constexpr std::size_t kMostCorners = 64;
 
 bool has_small_set(const Shape& shape) {
@@ -145,7 +146,7 @@ const Hierarchy& hierarchy_of(const Shape& shape, const Shape& partner) {
   return is_asked_as_convex(shape, partner) ? shape.convex_hierarchy() : shape.hierarchy();
 }
 
-/// In place of the box around it.
+/// Replaces a box by the core in it.
 void place_core(const ConvexCore* core, const Matrix3d& R, const Vector3d& origin,
                 PlacedBox& placed) {
   if (core != nullptr) {
@@ -313,7 +314,7 @@ BoxFrame MovingPair::box_frame() const {
   return frame;
 }
 
-/// Distances from the pivots are differences of positions in single precision.
+/// Sets the bends. Distances from the pivots are differences of positions in single precision.
 void MovingPair::place_bend(const RelativeState& state, BoxFrame& frame) const {
   constexpr double kDistanceError = 0x1p-20;
   const double size =
@@ -343,7 +344,7 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
   }
   frame.rate[0] = static_cast<float>(state.rate_A);
   frame.rate[1] = static_cast<float>(state.rate_B);
-  // What deforms brings rounding of its own: box_bounds.cpp.
+  // A body that deforms adds rounding of its own: box_bounds.cpp.
   frame.speed = round_up(
       (state.pivot_velocity.norm() + 4.0 * (A_.deformation_speed + B_.deformation_speed)) * scale);
   frame.drift = state.drift == 0.0 ? 0.0f : round_up(state.drift * scale);

@@ -28,60 +28,64 @@ struct BoxId {
 /// A box at one instant, in the frame of the RelativeState.
 struct PlacedBox {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;    ///< One per row.
+  Eigen::Matrix3d axes;    ///< The axes of the box, one per row.
   Eigen::Vector3d extent;  ///< [m]
   double radius = 0.0;     ///< [m]
   bool is_triangle = false;
-  Eigen::Matrix3d
-      corners;         ///< [m]  Of the triangle in the box, relative to the centre; one per row.
-  double reach = 0.0;  ///< [m]  Of any point of the box from its pivot, to the end of the step.
-  Eigen::Vector3d velocity;  ///< [m per step]  Of the centre, relative to A's pivot.
+  /// [m]  Corners of the triangle in the box, relative to the centre; one per row.
+  Eigen::Matrix3d corners;
+  /// [m]  Greatest distance of a point of the box from the body's pivot, to the end of the step.
+  double reach = 0.0;
+  Eigen::Vector3d velocity;  ///< [m per step]  Velocity of the centre, relative to A's pivot.
   bool deforms = false;
-  Eigen::Vector3d growth;            ///< [m per step]  Of the extents.
-  Eigen::Matrix3d corner_growth;     ///< [m per step]  Of the corners, like them.
-  const ConvexCore* core = nullptr;  ///< Of a convex set, which then counts in place of its box.
-  Eigen::Matrix3d R_core;            ///< [-]  From the axes of its frame.
-  Eigen::Vector3d p_core;            ///< [m]  The origin of its frame, from the centre.
+  Eigen::Vector3d growth;            ///< [m per step]  Growth of the extents.
+  Eigen::Matrix3d corner_growth;     ///< [m per step]  Rates of the corners; one per row.
+  const ConvexCore* core = nullptr;  ///< The core of a convex set, which replaces the box.
+  Eigen::Matrix3d R_core;            ///< [-]  Axes of the core's frame.
+  Eigen::Vector3d p_core;            ///< [m]  Origin of the core's frame, from the centre.
 };
 
-/// Above a value >= 0, as the fields of a BoxFrame have to be. Above 0 too: at the very end of a
-/// step the horizon is 0, and a pair that is not proven apart for any time must not be dropped.
+/// Rounds a value >= 0 up, for the fields of a BoxFrame. The answer is above 0. At the very end of
+/// a step the horizon is 0, and a pair that is not proven apart for any time must not be dropped.
 inline float round_up(double value) {
   return static_cast<float>(value * (1.0 + 0x1p-22)) + std::numeric_limits<float>::min();
 }
 
-/// At most the value.
+/// Rounds a value down.
 inline float below(double value) { return static_cast<float>(value - std::abs(value) * 0x1p-22); }
 
-/// At most the value, and not negative.
+/// Rounds a value down, but not below 0.
 inline float round_down(double value) { return std::max(0.0f, below(value)); }
 
-/// Whether queries of a pair ask a shape as the convex set that it is, not by its triangles.
+/// Whether queries of a pair take a shape as the convex set that it is, not by its triangles.
 [[nodiscard]] bool is_asked_as_convex(const Shape& shape, const Shape& partner);
 
-/// [m]  By how much triangles that are asked in place of curved bodies may stand out, of both.
+/// [m]  Sums the enclosure errors of both shapes, where their triangles replace curved bodies.
 [[nodiscard]] double enclosure_error(const Shape& A, const Shape& B);
 
+/// Two bodies over one piece of their motions.
 class MovingPair {
  public:
-  /// @param motion  that has entered a piece
+  /// Takes the triangles of both bodies.
+  ///
+  /// @param motion  has entered a piece
   MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion& motion);
 
-  /// Takes the convex set of a curved shape in place of its triangles, and then that of its partner
-  /// as well, where it has one of few points. A shape that deforms is asked by its triangles, and
-  /// so is its partner.
+  /// Takes the convex set of a curved shape in place of its triangles. Then it takes the set of the
+  /// partner as well, where the partner has one of few points. A shape that deforms is taken by its
+  /// triangles, and so is its partner.
   MovingPair(const Shape& A, const Shape& B, const PairMotion& motion);
 
   [[nodiscard]] const Hierarchy& A() const { return A_; }
   [[nodiscard]] const Hierarchy& B() const { return B_; }
   [[nodiscard]] const PairMotion& motion() const { return motion_; }
 
-  /// [m]  How far any gap computed from positions at this state may be from the exact one.
+  /// [m]  Bounds the error of any gap computed from positions at this state.
   ///
   /// Derivation, u = 2^-53: a rotated vertex is within 31 u of its length (22 u for the matrix, 9 u
-  /// for the product), the addition of p_AB and a dot product with a unit vector add 8 u of
-  /// R_A + R_B + |p_AB|; vertices were rounded to u / 2 when they were centred. Of convex sets it
-  /// is convex_gap_error().
+  /// for the product). The addition of p_AB and a dot product with a unit vector add 8 u of R_A +
+  /// R_B + |p_AB|. Vertices were rounded to u / 2 when they were centred. For convex sets it is
+  /// convex_gap_error().
   [[nodiscard]] double gap_error(const RelativeState& state) const;
 
   [[nodiscard]] PlacedBox place_A(const RelativeState& state, BoxId box) const;
@@ -89,41 +93,41 @@ class MovingPair {
   [[nodiscard]] TrianglePair place(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// How fast their corners move as their bodies see it, in world axes.
+  /// The velocities of the corners in the frames of their bodies, in world axes.
   [[nodiscard]] TrianglePair rates(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// [-]  The time for which two boxes are provably farther apart than the threshold.
+  /// [-]  Computes a time for which two boxes are provably farther apart than the threshold.
   ///
   /// The directions are those of the centre line and of each box's axes. A triangle's box counts as
-  /// its triangle only. The first direction that lasts for `enough` is not improved on.
+  /// its triangle only. The first direction that lasts for `enough` ends the search.
   ///
-  /// The boxes of a body that deforms grow. Derivation: were the body not to turn, all vertices
+  /// The boxes of a body that deforms grow. Derivation: if the body did not turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
-  /// time. Turning adds the velocities of where the vertices are now, and the accelerations of
-  /// advance_deforming().
+  /// time. A turn adds the velocities at the present places of the vertices, and the accelerations
+  /// of advance_deforming().
   [[nodiscard]] double time_apart(const RelativeState& state, const PlacedBox& a,
                                   const PlacedBox& b, double threshold, double error,
                                   double enough) const;
 
-  /// [m]  Lower bound of the distance of two boxes at this instant, by the same directions;
+  /// [m]  Bounds the distance of two boxes at this instant from below, by the same directions;
   /// negative where none separates.
   [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);
 
-  /// [m]  The same by one direction.
+  /// [m]  Bounds the same distance by one direction.
   ///
   /// @param n  [-]  unit, to the last bits
   [[nodiscard]] static double gap_along(const Eigen::Vector3d& n, const PlacedBox& a,
                                         const PlacedBox& b);
 
-  /// The convex core of a body, from its point C; null where its triangles are asked.
+  /// The convex core of a body, from its point C; null where its triangles are taken.
   [[nodiscard]] const ConvexCore* convex_A() const { return convex_A_ ? &*convex_A_ : nullptr; }
   [[nodiscard]] const ConvexCore* convex_B() const { return convex_B_ ? &*convex_B_ : nullptr; }
-  [[nodiscard]] bool is_convex() const { return convex_A_ || convex_B_; }  ///< One, or both.
+  [[nodiscard]] bool is_convex() const { return convex_A_ || convex_B_; }  ///< One body, or both.
 
   [[nodiscard]] bool deforms() const { return A_.deforms() || B_.deforms(); }
 
-  /// Bounds boxes by bound_boxes(), or its like for bodies that deform, as the frame has it.
+  /// Bounds the boxes of a pair of nodes by bound_boxes(), or its variant for bodies that deform.
   void bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b,
              BoxBounds& bounds) const;
   /// Bounds the boxes of two pairs of nodes in less than twice the time.
@@ -132,12 +136,12 @@ class MovingPair {
 
   /// The part of the kernel's input that is the same at all times.
   [[nodiscard]] BoxFrame box_frame() const;
-  /// Sets the rest of it for one instant, but for the horizon.
+  /// Sets the rest of the kernel's input for one instant, but for the horizon.
   ///
   /// @param threshold  [m]  the error of the gap included
   void place(const RelativeState& state, double threshold, BoxFrame& frame) const;
 
-  /// [m]  Of the kernel's lengths.
+  /// [m]  The unit of the kernel's lengths.
   [[nodiscard]] double unit() const { return std::max(A_.unit, B_.unit); }
 
   /// [m per step]  Bound of the rate at which any distance can change over the piece.

@@ -14,8 +14,8 @@
 
 namespace firstcontact::detail {
 
-/// The instant that a search looks at. Boxes are placed anew only where that gains something; pairs
-/// of triangles do without them.
+/// The instant at which a search places the bodies. Boxes are placed anew only where that gains
+/// something. Pairs of triangles do without boxes.
 class PairInstant {
  public:
   PairInstant(const MovingPair& pair, double tie_window)
@@ -27,10 +27,10 @@ class PairInstant {
 
   [[nodiscard]] double t() const { return t_; }
   [[nodiscard]] const RelativeState& state() const { return state_; }
-  [[nodiscard]] double error() const { return error_; }  ///< [m]  Of a gap of the two bodies.
+  [[nodiscard]] double error() const { return error_; }  ///< [m]  Error of a gap of the two bodies.
   [[nodiscard]] const BoxFrame& frame() const { return frame_; }
 
-  /// Until then, a group loses little by the boxes that were placed here.
+  /// The latest time at which a group loses little by the boxes that were placed here.
   [[nodiscard]] double latest_of_second() const { return t_ + kWindowsOfSecond * window_; }
 
   /// Places both bodies.
@@ -58,23 +58,23 @@ class PairInstant {
     frame_.horizon = round_up(horizon - t_);
   }
 
-  /// Another group was bounded in these boxes.
+  /// Counts another group that was bounded in these boxes.
   void count_served() { ++served_; }
 
-  /// Boxes are placed anew, as another threshold holds.
+  /// Requests a new placement of boxes, as another threshold holds.
   void forget_boxes() { frame_t_ = std::numeric_limits<double>::quiet_NaN(); }
 
  private:
-  /// A group that is bounded along with another one may be due so many times later as a group alone
-  /// after the bodies were placed: it loses little by that, and saves more.
+  /// [-]  Factor of the window for a group that is bounded along with another one: it may be due
+  /// that much later. The old placement costs little and saves more.
   static constexpr double kWindowsOfSecond = 8.0;
 
-  /// Groups that are bounded by one placement of the boxes before it is asked for a newer one, of
-  /// links, whose boxes are placed for longer than others. Where very many pairs come near at once,
-  /// what an older one loses would open all of them.
+  /// Number of groups after which boxes of links are placed anew. Placements of links serve longer
+  /// than others. Where many pairs come near at once, the loss by an old placement would open all
+  /// of them.
   static constexpr std::uint64_t kManyAtOnce = 16;
 
-  /// Whether boxes as they are placed may be bounded for a group that is proven until t.
+  /// Whether the present placement serves a group that is proven until t.
   [[nodiscard]] bool serves(double t) const {
     const bool is_old = served_ >= kManyAtOnce && pair_.motion().follows_joints();
     const double window = is_old ? std::min(tie_window_, window_) : window_;
@@ -84,12 +84,12 @@ class PairInstant {
   const MovingPair& pair_;
   double tie_window_;
   double window_;
-  double t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next two.
+  double t_ = std::numeric_limits<double>::quiet_NaN();  // Time of the next two.
   RelativeState state_;
   double error_ = 0.0;
   double frame_t_ = std::numeric_limits<double>::quiet_NaN();
   BoxFrame frame_;
-  std::uint64_t served_ = 0;  // Groups that were bounded in it.
+  std::uint64_t served_ = 0;  // Number of groups that were bounded in the frame.
 };
 
 }  // namespace firstcontact::detail

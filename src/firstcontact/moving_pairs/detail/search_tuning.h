@@ -5,17 +5,17 @@
 
 namespace firstcontact::detail {
 
-/// What suits a kind of motion.
+/// The numbers for a kind of motion.
 struct SearchTuning {
-  /// [-]  Boxes are not placed anew for less motion than this part of the shapes' size: a bound
+  /// [-]  Least motion for which boxes are placed anew, as a fraction of the shapes' size. A bound
   /// from a little earlier loses only a quantity of second order in time. Larger where a state is
   /// costly.
   double boxes_window;
-  /// [-]  Boxes farther apart than this part of their sizes are bounded once more when they are
-  /// due, nearer ones opened. Smaller where bodies stay beside each other for longer.
+  /// [-]  Fraction of their sizes: boxes farther apart are bounded once more when they are due,
+  /// nearer ones are opened. Smaller where bodies stay beside each other for longer.
   double far_boxes;
-  /// [-]  A box that is larger than the other one by this factor is opened alone, else both are.
-  /// Larger where two bodies that come near are seldom of one size.
+  /// [-]  Ratio of sizes from which only the larger box is opened, not both. Larger where two
+  /// bodies that come near are rarely of one size.
   double larger_boxes;
 };
 
@@ -24,6 +24,8 @@ inline constexpr SearchTuning kTuningOfBodies{
 inline constexpr SearchTuning kTuningOfLinks{
     .boxes_window = 0x1p-6, .far_boxes = 0.03, .larger_boxes = 2.5};
 
+/// The numbers for pairs of bodies or of links.
+///
 /// @param follows_joints  as PairMotion::follows_joints()
 [[nodiscard]] constexpr const SearchTuning& search_tuning(bool follows_joints) {
   return follows_joints ? kTuningOfLinks : kTuningOfBodies;
