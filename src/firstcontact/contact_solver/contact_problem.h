@@ -119,7 +119,8 @@ enum class ProjectionSpace {
 struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Greatest residual of a solution; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
-  /// [-]  Where the residual of the guesses is above `hit`: the share of it that may be left; >= 0.
+  /// [-]  Share of the residual of the guesses that may be left, where that residual is above
+  /// `hit`; >= 0.
   double of_hits = 0.0;
   double hit = 0.0;  ///< [m/s]  Residual of the guesses above which `of_hits` holds; >= 0.
   /// [m/s]  A residual that sweeps may leave where an interior point would come next; >= 0.  Half
@@ -133,8 +134,8 @@ struct ProjectionOptions {
 /// The answer of project_on_contacts().
 struct ContactSolution {
   std::vector<ContactBody> bodies;  ///< The bodies with the velocities that contacts allow.
-  std::vector<Eigen::VectorXd> mechanisms =
-      {};  ///< [rad/s or m/s]  Likewise, of their coordinates.
+  /// [rad/s or m/s]  The velocities of mechanisms that contacts allow.
+  std::vector<Eigen::VectorXd> mechanisms = {};
   /// [N s]  The impulse r of each contact, in its frame.
   std::vector<Eigen::Vector3d> impulses = {};
   std::vector<double> drives = {};  ///< [N m s or N s]  The impulse r of each drive.
@@ -149,7 +150,7 @@ struct ContactSolution {
 /// Projects velocities onto those that contacts and friction allow, in the kinetic metric.
 ///
 /// The result is the velocity v with u_n >= least_normal_velocity that is nearest to the free one:
-/// v - v_free| is least in the kinetic metric M (Gauss' principle of least constraint; Redon,
+/// |v - v_free| is least in the kinetic metric M (Gauss' principle of least constraint; Redon,
 /// Kheddar, Coquillart, "Gauss' least constraints principle and rigid body simulations", ICRA
 /// 2002). Its multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary
 /// to u_n - least_normal_velocity >= 0.
@@ -168,10 +169,9 @@ struct ContactSolution {
 /// Projected Gauss-Seidel: each contact is solved in turn, with all others held, until none
 /// changes. After each sweep there and back the method goes on in the direction of the sweeps
 /// before (M. Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
-/// interactive contact force problems", The Visual Computer 26 (2010)). The law of a contact is: r
-/// in K, u + mu |u_t| n in its dual, and the two orthogonal (De Saxce, Feng, "The bipotential
-/// method", Mathematical and Computer Modelling 28 (1998)).
-/// Modelling 28 (1998)).
+/// interactive contact force problems", The Visual Computer 26 (2010)). The law of a contact: r is
+/// in K, u + mu |u_t| n in its dual, orthogonal to r (De Saxce, Feng, "The bipotential method",
+/// Mathematical and Computer Modelling 28 (1998)).
 ///
 /// Augmented Lagrangian: the velocities minimise
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
@@ -182,13 +182,13 @@ struct ContactSolution {
 /// Engineering 92 (1991)). Sweeps give other points to begin at. It ends early where the impulses
 /// prove that no velocities keep all contacts open (Farkas' lemma).
 ///
-/// Choice: an interior point comes before the augmented Lagrangian, in rounds, from 120 contacts
-/// on, and from 300 on where there are two for each velocity. It takes no drives and ties. Each
-/// round solves the convex problem in which |u_t| is fixed at the value of the round before, and
-/// then sweeps all contacts. The automatic choice ends after a round whose residual `enough`
-/// permits. Where there are 300 contacts and two for each velocity, it first solves a few alone,
-/// with all drives. The contacts that the answer closes fastest join them, until none is left or
-/// they are no longer few.
+/// Choice: from 120 contacts on, an interior point comes before the augmented Lagrangian, in
+/// rounds. Where there are two contacts for each velocity, it does so from 300 on. It takes no
+/// drives and ties. Each round solves the convex problem in which |u_t| is fixed at the value of
+/// the round before, and then sweeps all contacts. Where `enough` is > 0, the automatic choice
+/// takes the answer that these rounds leave. Where there are 300 contacts and two for each
+/// velocity, it first solves a few alone, with all drives. The contacts that the answer closes
+/// fastest join them, until none is left or they are no longer few.
 ///
 /// @throws std::invalid_argument if an option is outside its range.
 [[nodiscard]] FIRSTCONTACT_API ContactSolution

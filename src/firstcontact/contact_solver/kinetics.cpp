@@ -17,20 +17,20 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Beyond some thousands of sub-steps in a step a body spins faster than any result of it matters:
-/// it goes on about the same axis.
+/// [rad]  Turn of a sub-step. A body that needs more than kMostSubSteps spins faster than any
+/// result of it matters: it goes on about the same axis.
 constexpr double kSubStep = 0.04;  // [rad]
 constexpr int kMostSubSteps = 10240;
 
-constexpr int kIterations = 12;  // Each leaves about a twentieth.
+constexpr int kIterations = 12;  // Each leaves about a twentieth of the error.
 
 Matrix3d rotation(const Pose& X_WB) { return X_WB.rotation.normalized().toRotationMatrix(); }
 
-/// The implicit midpoint rule on the angular velocity that the body sees,
-///   I dW/dt = I W x W + torque,
-/// which keeps energy and the length of the momentum. Its coefficients are differences of principal
-/// moments divided by the third one, at most 1: steps of a contraction to half the sub-step's
-/// angle, however slender the body. The orientation then follows the momentum.
+/// Integrates by the implicit midpoint rule on the angular velocity in the axes of the body,
+///   I dW/dt = I W x W + torque.
+/// The rule keeps energy and the length of the momentum. Its coefficients are differences of
+/// principal moments divided by the third one, at most 1. So its steps are contractions to half the
+/// sub-step's angle, for bodies of any shape. The orientation then follows the momentum.
 FreeTurn tumbling_turn(const Inertia& inertia, const RigidState& state, const Vector3d& torque_W,
                        double dt, int count) {
   const double h = dt / count;
@@ -61,9 +61,9 @@ FreeTurn tumbling_turn(const Inertia& inertia, const RigidState& state, const Ve
   return {nearest_turn(R * begin.conjugate(), mean * dt), R * w_B};
 }
 
-/// The same on the momentum, in the world: what holds a locked axis changes the momentum about that
-/// axis alone, on which the velocity does not depend. Turns about free axes add up to one about a
-/// locked axis, too, where the mean is about none.
+/// Integrates the same rule on the momentum, in the world. The torque of a locked axis changes the
+/// momentum about that axis alone, and the velocity does not depend on that part. Turns about free
+/// axes add up to one about a locked axis, too, where the mean has none.
 FreeTurn locked_turn(const Inertia& inertia, const RigidState& state, const Vector3d& torque_W,
                      double dt, int count) {
   const double h = dt / count;

@@ -23,7 +23,7 @@ using detail::ContactRows;
 using detail::Impulses;
 using detail::Projection;
 
-/// Velocities that impulses change.
+/// Counts the velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
   std::size_t count = 0;
   for (const ContactBody& body : problem.bodies) {
@@ -35,7 +35,7 @@ std::size_t moving_velocities(const ContactProblem& problem) {
   return count;
 }
 
-/// The problem's guesses, as far as the laws allow them.
+/// The problem's guesses, as far as the laws permit them.
 Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
   Impulses impulses;
   for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
@@ -54,7 +54,7 @@ Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
   return impulses;
 }
 
-/// [J]  r^T J M^-1 J^T r / 2 + r^T u_free, of which the impulses without friction are the least
+/// [J]  Computes r^T J M^-1 J^T r / 2 + r^T u_free. The impulses without friction are its least
 /// point; 0 without impulses.
 double dual_objective(const ContactRows& rows, const Projection& projection) {
   double sum = 0.0;
@@ -76,13 +76,15 @@ double dual_objective(const ContactRows& rows, const Projection& projection) {
   return sum;
 }
 
-/// Starts from the guesses where they seem better than no impulse at all, and that is no solution.
-/// They are judged as a whole: of many contacts one may be wrong by much, as where a body came to
-/// lie on another feature. With friction the objective is no more than a sign of it.
+/// Starts from the guesses where they seem better than no impulse at all, and no impulse is no
+/// solution.
+///
+/// The guesses are judged as a whole, as a single one may be far off where a body came to lie on
+/// another feature. With friction the objective is only an indication.
 Projection start(const ContactProblem& problem, const ContactRows& rows, double tolerance) {
   Projection none{.velocities = rows.free_velocities};
   none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
-  for (const detail::DriveRow& row : rows.drives) {  // Those of a tie may not be 0.
+  for (const detail::DriveRow& row : rows.drives) {  // 0 may be outside the bounds of a tie.
     none.impulses.drives.push_back(row.tie.empty() ? 0.0
                                                    : std::clamp(0.0, row.least, row.greatest));
   }
@@ -128,7 +130,7 @@ void require_not_negative(double value, const std::string& option) {
   }
 }
 
-/// Tries what is cheap for the problem before what is dear.
+/// Tries cheap methods before expensive ones.
 class Solver {
  public:
   Solver(const ContactProblem& problem, const ProjectionOptions& options)
@@ -187,7 +189,7 @@ class Solver {
     return found;
   }
 
-  /// Sweeps over the contacts, where that may be enough. Whether it is all that is to be done.
+  /// Sweeps over the contacts, where that may solve the problem. Returns whether it ends there.
   bool sweep_first() {
     const bool is_worthwhile = is_automatic_ && !(is_small_ && has_many_);
     if (options_.space != ProjectionSpace::contact && !is_worthwhile) {
@@ -201,10 +203,10 @@ class Solver {
     return !is_automatic_ || is_solved(projection_) || !is_small_;
   }
 
-  /// By an interior point. Nothing where multipliers are to go on.
+  /// Solves by an interior point. Returns nothing where multipliers are to go on.
   std::optional<ContactSolution> from_inside() {
     Projection inner = projection_;
-    if (is_automatic_) {  // Sweeps may be all that it takes.
+    if (is_automatic_) {  // Sweeps alone may solve it.
       ProjectionOptions sweeping = options_;
       if (are_redundant_) {
         sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsOfRedundant);
@@ -248,7 +250,8 @@ class Solver {
                                                   : solution(projection_, ProjectionSpace::motion);
   }
 
-  /// Where masses differ by more than a million, multipliers stop short of few contacts, too.
+  /// Tries an interior point after multipliers: at great ratios of masses these stop short of few
+  /// contacts, too.
   void by_interior_point_after_all() {
     Projection inner = projection_;
     detail::project_by_interior_point(problem_, rows_, options_, inner);

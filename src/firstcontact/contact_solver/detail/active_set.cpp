@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Which of eight directions a vector has.
+/// Finds in which of eight octants a direction lies.
 unsigned octant(const Vector3d& v) {
   return (v.x() > 0.0 ? 1u : 0u) | (v.y() > 0.0 ? 2u : 0u) | (v.z() > 0.0 ? 4u : 0u);
 }
@@ -24,7 +24,7 @@ class ActiveSet {
   ActiveSet(const ContactProblem& problem, const ContactRows& rows)
       : problem_(problem), rows_(rows), is_chosen_(rows.contacts.size(), false) {}
 
-  /// Adds those with an impulse, if they are few; or takes all impulses away.
+  /// Adds the contacts with an impulse, if they are few; or takes all impulses away.
   void add_acting(Projection& projection) {
     std::vector<Vector3d>& impulses = projection.impulses.contacts;
     const auto count = std::ranges::count_if(
@@ -42,8 +42,9 @@ class ActiveSet {
 
   [[nodiscard]] bool are_few() const { return are_few(chosen_.size()); }
 
-  /// Adds those that close fastest: of each two bodies one from each side of them that faces
-  /// another way, for neighbours say much the same. False if none closes faster than that.
+  /// Adds the contacts that close faster than `speed`: for each two bodies the fastest of each
+  /// side, which is an octant of normals. Neighbours on a side have much the same normals. Returns
+  /// false if no contact closes so fast.
   bool add_closing(const Eigen::VectorXd& velocities, double speed) {
     std::map<Side, std::pair<double, std::size_t>> fastest;
     for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
@@ -59,7 +60,7 @@ class ActiveSet {
     return !fastest.empty();
   }
 
-  /// Solves them alone, from the projection's impulses on.
+  /// Solves the chosen contacts alone, from the projection's impulses on.
   ContactSolution solve(const ProjectionOptions& options, Projection& projection) const {
     ContactProblem part{.bodies = problem_.bodies,
                         .mechanisms = problem_.mechanisms,

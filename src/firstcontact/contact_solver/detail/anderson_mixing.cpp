@@ -7,18 +7,18 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// [-]  What is left of a difference of changes beside newer ones says nothing below this part.
+/// [-]  A difference of changes is dropped if the part across newer ones is below this fraction.
 constexpr double kDependent = 1e-10;
 
 }  // namespace
 
-/// The newest differences come first: older ones are from farther away, where the map may be
-/// another one. Each is made orthogonal to those before it.
+/// The newest differences come first: older ones are from farther away, where the map may differ.
+/// Each is made orthogonal to those before it.
 VectorXd AndersonMixing::next(const VectorXd& x, const VectorXd& change) {
   VectorXd guess = x + change;
   VectorXd left = change;
-  std::vector<VectorXd> directions;  // Differences of changes, orthogonal, of length 1...
-  std::vector<VectorXd> ways;        // ... and what guess + change did along with them.
+  std::vector<VectorXd> directions;  // Orthogonal unit differences of changes...
+  std::vector<VectorXd> ways;        // ... and the differences of guess + change along with them.
   for (std::size_t k = guesses_.size(); k-- > 0;) {
     VectorXd direction = change - changes_[k];
     VectorXd way = x - guesses_[k] + direction;

@@ -25,31 +25,31 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Matrix1d = Eigen::Matrix<double, 1, 1>;
 
-constexpr int kMostRounds = 300;      // Of multipliers.
+constexpr int kMostRounds = 300;      // Rounds of multipliers.
 constexpr int kPatience = 8;          // Rounds without a residual of half the best one.
-constexpr int kMostNewtonSteps = 40;  // In a round.
+constexpr int kMostNewtonSteps = 40;  // Newton's steps in a round.
 constexpr double kFirstPenalty = 1e2;
 constexpr double kGreatestPenalty = 1e5;
 constexpr double kPenaltyGrowth = 4.0;
-/// How exactly a round is solved: in parts of the residual before it, at last of the tolerance.
+/// The precision of a round, as a fraction of the residual before it and of the tolerance at last.
 constexpr double kPartOfResidual = 0.01;
 constexpr double kPartOfTolerance = 1e-3;
-/// [velocities]  Up to so many, rounds that bring little are solved with sliding speeds as
-/// unknowns: the matrix is full then. Beside drives all rounds are, at first: that halves the
-/// factorisations of a humanoid that falls.
+/// [velocities]  Size up to which rounds that gain little have sliding speeds as unknowns: their
+/// matrix is full. With drives all rounds are so at first: that halves the factorisations of a
+/// humanoid that falls.
 constexpr Eigen::Index kMostWithSliding = 120;
-constexpr int kMostSlidingSteps = 20;  // Of Newton's method in such a round.
-constexpr int kMostHalvings = 5;       // Of one of these steps.
-/// Where rounds end short of an answer, sweeps and such rounds go on in turn: sweeps find other
-/// places to begin at.
+constexpr int kMostSlidingSteps = 20;  // Newton's steps in such a round.
+constexpr int kMostHalvings = 5;       // Halvings of one of these steps.
+/// Most turns of sweeps and of rounds with sliding speeds, where rounds end short of an answer.
+/// Sweeps find other points to begin at.
 constexpr int kMostTurns = 10;
 constexpr int kPatienceOfTurns = 3;  // Turns without a residual of half the best one.
 constexpr int kSweepsOfTurn = 50;
 constexpr int kRoundsOfTurn = 3;
-constexpr double kPenaltyOfTurn = 1e3;         // Of its first round...
+constexpr double kPenaltyOfTurn = 1e3;         // Penalty of the first round of a turn...
 constexpr double kPenaltyGrowthInTurn = 10.0;  // ... which then grows.
 
-/// The augmented Lagrangian over kinetic coordinates x.
+/// The augmented Lagrangian over mass-whitened coordinates x.
 class Lagrangian {
  public:
   Lagrangian(const MassWhitenedCoordinates& coordinates, const ContactRows& rows)
@@ -59,21 +59,22 @@ class Lagrangian {
     }
   }
 
-  /// Multipliers and what they are held against: the next of a round.
+  /// The data of a round: its multipliers, its fixed sliding speeds and its penalty.
   struct Round {
     Impulses multipliers = {};
     std::vector<double> bias = {};   // [m/s]  mu |u_t|
-    double penalty = kFirstPenalty;  // Times the inverse of a row's response.
+    double penalty = kFirstPenalty;  // Penalty, times the inverse of a row's response.
   };
 
-  /// What the Lagrangian is at some x.
+  /// The Lagrangian at some x.
   struct Point {
     VectorXd x;
     double value = 0.0;
-    VectorXd gradient = {};              // x - G^T r
-    Impulses next = {};                  // r, the next multipliers of the round.
-    std::vector<Vector3d> shifted = {};  // Of contacts; what is projected on their cones.
-    std::vector<double> stiffness = {};  // Of drives.
+    VectorXd gradient = {};  // x - G^T r
+    Impulses next = {};      // r, the next multipliers after the round.
+    // For each contact the vector that is projected on its cone.
+    std::vector<Vector3d> shifted = {};
+    std::vector<double> stiffness = {};  // Stiffness of each drive.
   };
 
   [[nodiscard]] Point at(const Round& round, VectorXd x) const {
@@ -102,8 +103,8 @@ class Lagrangian {
     add_stiffness(point, hessian);
   }
 
-  /// With the sliding speeds of x itself, which become those of the round. There is no value that
-  /// is least then: the gradient is 0 where the laws hold with these multipliers.
+  /// Evaluates with the sliding speeds of x itself, which become those of the round. No value is
+  /// minimised then: the gradient is 0 where the laws hold with these multipliers.
   Point with_own_sliding(Round& round, VectorXd x) const {
     for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
       const Vector3d u = u_free_[k] + contacts_.times(k, x);
@@ -112,8 +113,8 @@ class Lagrangian {
     return at(round, std::move(x));
   }
 
-  /// The derivative of that gradient. It is not symmetric: sliding speeds open contacts, but no
-  /// impulse along the normal makes them slide.
+  /// Computes the derivative of that gradient. It is not symmetric: sliding speeds open contacts,
+  /// but no impulse along the normal makes them slide.
   [[nodiscard]] MatrixXd derivative_with_sliding(const Round& round, const Point& point) const {
     MatrixXd derivative = MatrixXd::Identity(point.x.size(), point.x.size());
     for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
@@ -132,7 +133,7 @@ class Lagrangian {
   }
 
  private:
-  /// Most drives of a robot are stops that do not act.
+  /// Adds the stiffness of the drives. Most drives of a robot are stops that do not act.
   template <class Matrix>
   void add_stiffness(const Point& point, Matrix& matrix) const {
     for (std::size_t k = 0; k < rows_.drives.size(); ++k) {
@@ -146,7 +147,7 @@ class Lagrangian {
     return response > 0.0 ? round.penalty / response : 0.0;
   }
 
-  /// Projects r - rho (u' + mu |u_t| n) on the cone.
+  /// Adds a contact: projects r - rho (u' + mu |u_t| n) on the cone.
   void add_contact(const Round& round, std::size_t k, Point& point) const {
     const ContactRow& row = rows_.contacts[k];
     if (!(row.greatest() > 0.0)) {
@@ -164,11 +165,11 @@ class Lagrangian {
     contacts_.add_transposed(k, -r, point.gradient);
   }
 
-  /// A drive answers as a spring between bounds. Its energy is the greatest over r between them of
-  /// r y / rho - r^2 (compliance + 1 / rho) / 2, with y = r_0 - rho (u - target).
+  /// Adds a drive: it acts as a spring between bounds. Its energy is the greatest over r between
+  /// them of r y / rho - r^2 (compliance + 1 / rho) / 2, with y = r_0 - rho (u - target).
   void add_drive(const Round& round, std::size_t k, Point& point) const {
     const DriveRow& row = rows_.drives[k];
-    if (!(row.own > 0.0)) {  // Of two bodies that nothing moves.
+    if (!(row.own > 0.0)) {  // Between two bodies that nothing moves.
       point.next.drives.push_back(0.0);
       point.stiffness.push_back(0.0);
       return;
@@ -187,10 +188,10 @@ class Lagrangian {
   const ContactRows& rows_;
   const BlockRows<3>& contacts_;
   const BlockRows<1>& drives_;
-  std::vector<Vector3d> u_free_;  // [m/s]  Of contacts, at x = 0.
+  std::vector<Vector3d> u_free_;  // [m/s]  u of each contact at x = 0.
 };
 
-/// Minimises from a point on. Returns the factorisations that it took.
+/// Minimises from a point on. Returns the number of factorisations.
 int minimise(const Lagrangian& lagrangian, const Lagrangian::Round& round, double precision,
              BlockCholesky& hessian, Lagrangian::Point& point) {
   for (int step = 0; step < kMostNewtonSteps; ++step) {
@@ -203,7 +204,7 @@ int minimise(const Lagrangian& lagrangian, const Lagrangian::Round& round, doubl
     const double slope = point.gradient.dot(direction);
     double length = 1.0;
     Lagrangian::Point next = lagrangian.at(round, point.x + direction);
-    // Where rounding hides the descent, the gradient tells whether the whole step is one.
+    // Where rounding hides the descent, the gradient decides about the whole step.
     bool is_better = next.gradient.norm() < 0.5 * point.gradient.norm();
     while (!(next.value <= point.value + 1e-4 * length * slope) && !is_better && length > 1e-6) {
       length *= 0.5;
@@ -217,10 +218,10 @@ int minimise(const Lagrangian& lagrangian, const Lagrangian::Round& round, doubl
   return kMostNewtonSteps;
 }
 
-/// Newton's method on the laws with sliding speeds as unknowns (P. Alart, A. Curnier, "A mixed
+/// Runs Newton's method on the laws with sliding speeds as unknowns (P. Alart, A. Curnier, "A mixed
 /// formulation for frictional contact problems prone to Newton like solution methods", Computer
 /// Methods in Applied Mechanics and Engineering 92 (1991)). Only steps that make the gradient
-/// smaller are taken. Returns the factorisations that it took.
+/// smaller are taken. Returns the number of factorisations.
 int solve_with_sliding(const Lagrangian& lagrangian, double precision, Lagrangian::Round& round,
                        Lagrangian::Point& point) {
   point = lagrangian.with_own_sliding(round, std::move(point.x));
@@ -244,8 +245,8 @@ int solve_with_sliding(const Lagrangian& lagrangian, double precision, Lagrangia
   return kMostSlidingSteps;
 }
 
-/// Solves a round, with its sliding speeds where that is asked and finds them. Returns the
-/// factorisations that it took.
+/// Solves a round. With `with_sliding` it tries to find sliding speeds as well. Returns the number
+/// of factorisations.
 int solve_round(const Lagrangian& lagrangian, double precision, bool with_sliding,
                 BlockCholesky& hessian, Lagrangian::Round& round, Lagrangian::Point& point) {
   int factorisations = 0;
@@ -262,7 +263,7 @@ int solve_round(const Lagrangian& lagrangian, double precision, bool with_slidin
   return factorisations + minimise(lagrangian, round, precision, hessian, point);
 }
 
-/// [1/kg]
+/// [1/kg]  The greatest response of all rows.
 double greatest_response(const ContactRows& rows) {
   double greatest = 0.0;
   for (const ContactRow& row : rows.contacts) {
@@ -274,7 +275,7 @@ double greatest_response(const ContactRows& rows) {
   return greatest;
 }
 
-/// Waits for a residual of half the best one.
+/// A counter of rounds without a residual of half the best one.
 class Patience {
  public:
   explicit Patience(int most) : most_(most) {}
@@ -325,7 +326,9 @@ class Multipliers {
  private:
   [[nodiscard]] bool is_solved() const { return best_.residual <= options_.tolerance; }
 
-  /// @param with_sliding  every round with sliding speeds as unknowns; else those that bring little
+  /// Runs rounds of multipliers.
+  ///
+  /// @param with_sliding  every round has sliding speeds as unknowns; else those that gain little
   void run_rounds(Projection now, bool with_sliding) {
     Lagrangian::Round round;
     Patience patience(kPatience);
@@ -344,7 +347,7 @@ class Multipliers {
     }
   }
 
-  /// Of sweeps and rounds with sliding speeds as unknowns.
+  /// Alternates sweeps and rounds with sliding speeds as unknowns.
   void take_turns() {
     Projection swept = best_;
     Patience patience(kPatienceOfTurns);
@@ -383,8 +386,8 @@ class Multipliers {
     }
   }
 
-  /// Of the gradient. One of 1 changes velocities at a contact by at most the root of the trace of
-  /// its response.
+  /// The precision of the gradient for a residual. A gradient of 1 changes velocities at a contact
+  /// by at most the root of the trace of its response.
   [[nodiscard]] double precision(const Lagrangian::Point& point, double residual) const {
     return std::max({kPartOfTolerance * options_.tolerance / per_gradient_,
                      kPartOfResidual * residual / per_gradient_, 1e-15 * (1.0 + point.x.norm())});
@@ -410,7 +413,7 @@ class Multipliers {
   BlockCholesky hessian_;
   Lagrangian lagrangian_;
   Contradiction contradiction_;
-  double per_gradient_;  // [m/s]
+  double per_gradient_;  // [m/s]  Change of a velocity by a gradient of 1.
   Projection best_ = {};
   bool is_contradiction_ = false;
   int factorisations_ = 0;

@@ -1,5 +1,5 @@
 /// @file
-/// Sparse symmetric systems of equations in blocks of six, as velocities of bodies have.
+/// Sparse symmetric systems of equations in blocks of six, one for the velocity of each body.
 
 #pragma once
 
@@ -15,12 +15,12 @@ namespace firstcontact::detail {
 
 /// The factor L L^T of a symmetric, positive definite matrix of 6 x 6 blocks.
 ///
-/// The inverses of the blocks on the diagonal stand for them.
+/// The blocks on the diagonal are stored as their inverses.
 class BlockCholesky {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
 
-  /// As BlockPattern.
+  /// Makes a matrix with these blocks, as BlockPattern.
   BlockCholesky(std::size_t count, const std::vector<std::array<std::size_t, 2>>& pairs);
 
   [[nodiscard]] BlockPattern::Place place(std::size_t i, std::size_t j) const {
@@ -31,7 +31,7 @@ class BlockCholesky {
 
   [[nodiscard]] Block& at(const BlockPattern::Place& place) { return blocks_[place.index]; }
 
-  /// Puts the factor in the place of the matrix.
+  /// Factorises the matrix in its place.
   void factorise();
 
   /// Solves with the factor.

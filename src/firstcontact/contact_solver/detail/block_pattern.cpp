@@ -8,9 +8,9 @@
 namespace firstcontact::detail {
 namespace {
 
-using Degree = std::pair<std::size_t, std::size_t>;  // Of a block, and its number.
+using Degree = std::pair<std::size_t, std::size_t>;  // Degree of a block, and its number.
 
-/// Those connected with each, sorted.
+/// Lists the blocks that are connected with each block, sorted.
 std::vector<std::vector<std::size_t>> neighbours(
     std::size_t count, const std::vector<std::array<std::size_t, 2>>& pairs) {
   std::vector<std::vector<std::size_t>> all(count);
@@ -49,12 +49,12 @@ void BlockPattern::find_order(std::size_t count,
     const auto [degree, i] = queue.top();
     queue.pop();
     if (is_done[i] || degree != left[i].size()) {
-      continue;  // Out of date.
+      continue;  // An outdated entry.
     }
     is_done[i] = true;
     step[i] = order.size();
     order.push_back(i);
-    // What is connected with it becomes connected with each other.
+    // All neighbours of the eliminated block become connected with each other.
     for (const std::size_t k : left[i]) {
       merged.clear();
       std::ranges::set_union(left[k], left[i], std::back_inserter(merged));

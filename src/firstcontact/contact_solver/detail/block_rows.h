@@ -1,5 +1,5 @@
 /// @file
-/// How velocities in blocks of six move contacts or drives.
+/// Matrices that map velocities in blocks of six to contacts or drives.
 
 #pragma once
 
@@ -14,15 +14,16 @@
 
 namespace firstcontact::detail {
 
-/// A matrix G of which each row has `rows` lines, and few blocks of six columns.
+/// A matrix G whose rows have `rows` lines each, and few blocks of six columns.
 template <int rows>
 class BlockRows {
  public:
   using Vector = Eigen::Matrix<double, rows, 1>;
   using Square = Eigen::Matrix<double, rows, rows>;
 
+  /// Begins a new row.
   void add_row() { first_.push_back(entries_.size()); }
-  /// To the last row; columns from in_x on.
+  /// Adds columns to the last row, from `in_x` on.
   template <class Derived>
   void add(Eigen::Index in_x, const Eigen::MatrixBase<Derived>& G) {
     for (Eigen::Index k = 0; k < G.cols(); k += 6) {
@@ -33,7 +34,7 @@ class BlockRows {
 
   [[nodiscard]] std::size_t size() const { return first_.size() - 1; }
 
-  /// G x of a row.
+  /// Computes G x of a row.
   [[nodiscard]] Vector times(std::size_t row, const Eigen::VectorXd& x) const {
     Vector u = Vector::Zero();
     for (const Entry& entry : of(row)) {
@@ -41,14 +42,14 @@ class BlockRows {
     }
     return u;
   }
-  /// x += G^T r of a row.
+  /// Adds G^T r of a row to x.
   void add_transposed(std::size_t row, const Vector& r, Eigen::VectorXd& x) const {
     for (const Entry& entry : of(row)) {
       x.segment<6>(entry.in_x) += entry.G.transpose() * r;
     }
   }
 
-  /// The blocks that G^T D G has.
+  /// Lists the blocks that G^T D G has.
   void list_pairs(std::vector<std::array<std::size_t, 2>>& pairs) const {
     for (std::size_t row = 0; row < size(); ++row) {
       for_each_pair(row, [&](const Entry& a, const Entry& b) {
@@ -56,6 +57,7 @@ class BlockRows {
       });
     }
   }
+  /// Finds the places of these blocks in a matrix.
   void find_places(const BlockCholesky& matrix) {
     for (std::size_t row = 0; row < size(); ++row) {
       first_place_.push_back(places_.size());
@@ -64,7 +66,7 @@ class BlockRows {
       });
     }
   }
-  /// Adds G^T D G of a row, with a symmetric D.
+  /// Adds G^T D G of a row to a matrix, with a symmetric D.
   void add_to(BlockCholesky& matrix, std::size_t row, const Square& D) const {
     const BlockPattern::Place* place = &places_[first_place_[row]];
     const auto entries = of(row);
@@ -80,7 +82,7 @@ class BlockRows {
     }
   }
 
-  /// The same to a full matrix, with any D.
+  /// Adds G^T D G of a row to a full matrix, with any D.
   void add_to(Eigen::MatrixXd& matrix, std::size_t row, const Square& D) const {
     for (const Entry& b : of(row)) {
       const Eigen::Matrix<double, rows, 6> DG = D * b.G;
@@ -111,7 +113,7 @@ class BlockRows {
   }
 
   std::vector<Entry> entries_;
-  std::vector<std::size_t> first_ = {0};  // Of each row in entries_, and the end.
+  std::vector<std::size_t> first_ = {0};  // First entry of each row in entries_, and the end.
   std::vector<BlockPattern::Place> places_;
   std::vector<std::size_t> first_place_;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// How pairs of sweeps go on in the direction of those before.
+/// Conjugate directions of pairs of sweeps.
 
 #pragma once
 
@@ -11,10 +11,12 @@
 namespace firstcontact::detail {
 
 /// The direction of nonsmooth conjugate gradients (see project_on_contacts()), after Fletcher and
-/// Reeves: what a pair of sweeps changes takes the place of the gradient. It starts anew where that
-/// points against the direction of before (B. O'Donoghue, E. Candes, "Adaptive restart for
-/// accelerated gradient schemes", Foundations of Computational Mathematics 15 (2015)), not where it
-/// merely grew: of redundant contacts impulses go over in thousands of like steps.
+/// Reeves: the change by a pair of sweeps takes the place of the gradient.
+///
+/// It starts anew where the change points against the direction (B. O'Donoghue, E. Candes,
+/// "Adaptive restart for accelerated gradient schemes", Foundations of Computational Mathematics 15
+/// (2015)). It does not where the change only grew. Between redundant contacts impulses move over
+/// in thousands of like steps.
 ///
 /// @tparam State  a vector of numbers
 template <class State>
@@ -22,13 +24,15 @@ class ConjugateDirection {
  public:
   using Number = typename State::Scalar;
 
-  /// @param weights  squared lengths are measured with; of each number of the state
+  /// Makes a direction.
+  ///
+  /// @param weights  one for each number of the state; they weigh its square in squared lengths
   explicit ConjugateDirection(State weights) : weights_(std::move(weights)) {}
 
-  /// Before a pair of sweeps.
+  /// Call it before a pair of sweeps.
   void begin(const State& state) { step_ = state; }
 
-  /// After it; moves the state on.
+  /// Call it after the pair; it moves the state on.
   void end(State& state) {
     step_ = state - step_;
     const Number squared = weights_.dot(step_.cwiseAbs2());

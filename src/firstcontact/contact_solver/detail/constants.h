@@ -1,6 +1,6 @@
 /// @file
-/// The numbers by which a contact problem gets its solver, each with its unit and its consequence.
-/// The steps of a solver stand beside it.
+/// The numbers that choose the solver of a contact problem, each with its unit and its consequence.
+/// The numbers of a solver's steps stand beside the solver.
 
 #pragma once
 
@@ -10,51 +10,55 @@ namespace firstcontact::detail {
 
 // Which solver.
 
-/// [velocities]  Larger problems are only swept: factorisations grow with more than the number of
-/// velocities. Sweeps of such problems may stop far from an answer, but take less memory.
+/// [velocities]  Size of the largest problem with factorisations. Larger ones are only swept, as
+/// the work of factorisations grows faster than the number of velocities. Such sweeps may stop far
+/// from an answer, but take less memory.
 inline constexpr std::size_t kMostForAugmentedLagrangian = 6000;
-/// [sweeps]  After so many the augmented Lagrangian takes over, unless sweeps may leave
-/// something...
+/// [sweeps]  Sweeps after which the augmented Lagrangian takes over, unless sweeps may leave a
+/// residual.
 inline constexpr int kSweepsBeforeAugmentedLagrangian = 100;
-/// [sweeps]  ... and in so many where contacts are many for each body.
+/// [sweeps]  Sweeps before the augmented Lagrangian where contacts are many for each body.
 inline constexpr int kSweepsOfRedundant = 30;
-/// [sweeps]  Then there are so many more, [-] to this part of the tolerance: what is left would add
-/// up from step to step.
+/// [sweeps]  Sweeps that follow, [-] to this fraction of the tolerance. The residual of one step
+/// would otherwise add up from step to step.
 inline constexpr int kExtraSweeps = 30;
 inline constexpr double kExtraTolerance = 0.1;
-/// [contacts]  For each body, that is for six velocities, from where on the augmented Lagrangian is
-/// cheaper: a sweep costs as many contacts as an assembly, and takes more of them.
+/// [contacts]  Contacts for each body, that is for six velocities, from which the augmented
+/// Lagrangian takes less time. A contact costs as much in a sweep as in an assembly, and sweeps are
+/// needed more often.
 inline constexpr std::size_t kManyContactsOfBody = 12;
-/// [contacts]  From so many on an interior point comes first: multipliers would take ten times as
+/// [contacts]  Number from which an interior point comes first: multipliers would take ten times as
 /// long.
 inline constexpr std::size_t kManyForInteriorPoint = 120;
-/// [contacts]  The same where there are many for each body, and few equations for multipliers.
+/// [contacts]  Number from which it comes first where contacts are many for each body. Multipliers
+/// have few equations then.
 inline constexpr std::size_t kManyRedundant = 300;
 
-/// [-]  Where masses differ by this factor, multipliers stop short of few contacts, too, and an
-/// interior point goes on.
+/// [-]  Ratio of masses from which multipliers stop short even of few contacts, and an interior
+/// point goes on.
 inline constexpr double kUnequalMasses = 1e4;
 
 // The active set.
 
-/// [rounds]  After so many, what was found is the answer.
+/// [rounds]  Rounds after which the current set gives the answer.
 inline constexpr int kMostRoundsOfDeciding = 30;
-/// [-]  One contact of so many may be in the set, or it is no small one.
+/// [-]  The set may have one of this many contacts at most; else it is not small.
 inline constexpr std::size_t kPartOfAll = 4;
 
-// Contacts side by side.
+// Contacts in batches.
 
-/// [contacts]  Fewer are swept one by one.
+/// [contacts]  Fewer contacts are swept one by one.
 inline constexpr std::size_t kFewContacts = 16;
-/// [contacts]  In double precision, which is for answers of many digits, the order of contacts is
-/// given up only for more of them: along it an answer travels through a stack in one sweep.
+/// [contacts]  Number from which batches in double precision give up the order of contacts. Along
+/// the order an answer travels through a stack in one sweep, and double precision is for answers of
+/// many digits.
 inline constexpr std::size_t kVeryManyInOrder = 500;
-/// [-]  Of the lanes that are filled. Below it the order is given up for more of them, where that
-/// is allowed.
+/// [-]  Fraction of the lanes that are filled. Below it the order is given up to fill more, where
+/// that is permitted.
 inline constexpr double kGoodFill = 0.6;
-/// [contacts]  With fewer in a batch, in the mean, one by one is faster.
+/// [contacts]  Mean number in a batch below which one by one is faster.
 inline constexpr double kLeastInBatch = 2.5;
-/// [contacts]  So many of a pair in turn are solved before other pairs.
+/// [contacts]  Number of contacts of a pair that are solved in turn before other pairs.
 inline constexpr std::size_t kMostOfPair = 4;
 
 }  // namespace firstcontact::detail

@@ -14,10 +14,10 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kNumbersOfBody = 8;  // In x.
+constexpr std::size_t kNumbersOfBody = 8;  // Numbers in x.
 
-/// Where in the state the first impulse of a lane is; the others follow by as many as there are
-/// lanes.
+/// The index in the state of a lane's first impulse; the others follow at distances of the number
+/// of lanes.
 template <class Number>
 Index place_of(std::size_t lane) {
   constexpr std::size_t lanes = kLanes<Number>;
@@ -103,7 +103,7 @@ void ContactBatches<Number>::fill(const ContactProblem& problem) {
                         : Matrix6d(Matrix6d::Zero()));
   }
   for (ContactBatch<Number>& batch : batches_) {
-    // As lanes without contact: nothing is divided by zero.
+    // Filled as lanes without contact: nothing is divided by zero.
     batch.normal.fill(1);
     batch.inverse_normal.fill(1);
     batch.tangential = {batch.normal, batch.normal};
@@ -157,7 +157,7 @@ auto ContactBatches<Number>::weights() const -> State {
   return weights;
 }
 
-/// Velocities are added up in double precision.
+/// The velocities are added up in double precision.
 template <class Number>
 auto ContactBatches<Number>::state_of(const Projection& projection) const -> State {
   State state = State::Zero(state_size());

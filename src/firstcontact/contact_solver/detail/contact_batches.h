@@ -1,5 +1,5 @@
 /// @file
-/// Contacts eight or sixteen at a time: sweeps for vector units.
+/// Contacts in batches of eight or sixteen: sweeps for vector units.
 
 #pragma once
 
@@ -22,48 +22,52 @@ namespace firstcontact::detail {
 template <class Number>
 constexpr std::size_t kLanes = 64 / sizeof(Number);
 
+/// One number for each lane.
 template <class Number>
 using Lanes = std::array<Number, kLanes<Number>>;
 
-/// Contacts that share no moving body, one in each lane: solved at once they are solved in any
-/// order. Velocities are those of kinetic coordinates x, V = V_free + S x with S S^T = M^-1, of
-/// which an impulse changes J^T r where the contact sees J x. A lane without contact, or with one
-/// that no impulse would change, sees nothing. Numbers are multiples of BatchUnits.
+/// Contacts that share no moving body, one in each lane. Any order of solving them gives the same.
+///
+/// Velocities are those of mass-whitened coordinates x, V = V_free + S x with S S^T = M^-1. A
+/// contact has the velocity J x, and its impulse r changes x by J^T r. J is zero for a lane without
+/// a contact, or with a contact that no impulse would change. Numbers are multiples of BatchUnits.
 template <class Number>
 struct alignas(64) ContactBatch {
   using Jacobian = std::array<std::array<Lanes<Number>, 6>, 3>;
 
-  std::array<Jacobian, 2> J = {};                ///< Of A and B, in the turned frames of the rows.
-  std::array<Lanes<Number>, 3> free = {};        ///< u of the free velocities, beyond the least.
+  std::array<Jacobian, 2> J = {};  ///< Jacobians of A and B, in the turned frames of the rows.
+  std::array<Lanes<Number>, 3> free = {};        ///< u of the free velocities, less the target.
   Lanes<Number> normal = {};                     ///< W_nn
   Lanes<Number> inverse_normal = {};             ///< 1 / W_nn
   std::array<Lanes<Number>, 2> coupling = {};    ///< W_tn / W_nn
   std::array<Lanes<Number>, 2> tangential = {};  ///< Diagonal of A, see ContactResponse.
   Lanes<Number> friction = {};                   ///< [-]
-  Lanes<Number> greatest = {};                   ///< Of the diagonal of W.
+  Lanes<Number> greatest = {};                   ///< Greatest entry of the diagonal of W.
 };
 
-/// Pairs of bodies, one in each lane, that share no moving body, with up to so many contacts each.
+/// Pairs of bodies, one in each lane, that share no moving body, with up to `count` contacts each.
 ///
-/// Their bodies are loaded once for all of these contacts.
+/// The bodies are loaded once for all of these contacts.
 template <class Number>
 struct PairBatch {
   using Place = std::conditional_t<sizeof(Number) == 4, std::int32_t, std::int64_t>;
 
-  /// Where x of A and B begin; of a lane without pair, behind those of all bodies.
+  /// Index of the first number of x of A and B; for a lane without a pair, behind all bodies.
   std::array<std::array<Place, kLanes<Number>>, 2> at = {};
-  std::size_t first = 0;  ///< Contact batch of the first contacts; the others follow.
-  std::size_t count = 0;
+  std::size_t first = 0;  ///< Batch of the first contacts; the batches of the others follow.
+  std::size_t count = 0;  ///< Number of batches.
 };
 
-/// One sweep: solves each contact with all others held, pair by pair or in the reverse order. As
-/// solve_alone() where it opens, sticks or has no friction; where it slides, two of Newton's steps
-/// in each sweep take alpha (see ContactResponse::impulse()) to where it belongs.
+/// Runs one sweep: solves each contact with all others held, pair by pair or in the reverse order.
 ///
-/// @param impulses  of each batch: its normal ones, then those along both tangents
+/// A contact that opens, sticks or has no friction is solved as by solve_alone(). For a contact
+/// that slides, two of Newton's steps in each sweep bring alpha (see ContactResponse::impulse())
+/// nearer to its value.
+///
+/// @param impulses  for each batch its normal ones, then those along both tangents
 /// @param sliding   alpha of each lane when it slid last; at first 0
-/// @param x         of each body eight numbers, the first six its kinetic coordinates
-/// @returns  the greatest change of a velocity
+/// @param x         eight numbers for each body, of which the first six are its mass-whitened
+///         coordinates
 double wide_gauss_seidel(const std::vector<PairBatch<double>>& pairs,
                          const std::vector<ContactBatch<double>>& batches, bool backwards,
                          double* impulses, double* sliding, double* x);
@@ -71,9 +75,9 @@ float wide_gauss_seidel(const std::vector<PairBatch<float>>& pairs,
                         const std::vector<ContactBatch<float>>& batches, bool backwards,
                         float* impulses, float* sliding, float* x);
 
-/// The units of which the numbers of batches are multiples.
+/// The units of the numbers of batches.
 ///
-/// Single precision has no room for the squares of very small impulses.
+/// In SI units the squares of very small impulses would underflow in single precision.
 struct BatchUnits {
   double velocity = 1.0;  ///< [m/s]
   double response = 1.0;  ///< [1/kg]
@@ -81,19 +85,21 @@ struct BatchUnits {
   [[nodiscard]] double impulse() const { return velocity / response; }  ///< [N s]
 };
 
-/// In which free velocities and responses are about one.
+/// Finds units in which free velocities and responses are about one.
 [[nodiscard]] BatchUnits units_of(const ContactRows& rows);
 
 /// A problem of bodies that are no links, in batches.
 ///
-/// Where few lanes stay empty each body meets its contacts in the order of the rows. A sweep then
-/// does what one over the rows does, but for rounding and contacts that slide. The state of its
-/// solution is all impulses, batch by batch, then x.
+/// Where few lanes stay empty, each body meets its contacts in the order of the rows. A sweep is
+/// then one over the rows, but for rounding and contacts that slide. The state of its solution is
+/// all impulses, batch by batch, then x.
 template <class Number>
 class ContactBatches {
  public:
   using State = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
 
+  /// Puts the contacts of a problem into batches.
+  ///
   /// @param rows  of the problem; to outlive the batches
   /// @returns nothing where lanes would stay empty: a few bodies with many contacts each, or few
   ///          contacts at all
@@ -101,12 +107,15 @@ class ContactBatches {
                                                         const ContactRows& rows,
                                                         const BatchUnits& units = {});
 
-  /// The weights of squared lengths of the state: those of impulses, by their changes of velocity.
+  /// The weights of squared lengths of the state: impulses count by their changes of velocity.
   [[nodiscard]] State weights() const;
+  /// The state of a projection.
   [[nodiscard]] State state_of(const Projection& projection) const;
+  /// Runs a sweep.
+  ///
   /// @returns [m/s]  the greatest change of a velocity
   double sweep(bool backwards, State& state);
-  /// With the residual.
+  /// Writes a state to a projection, with its residual.
   void take(const State& state, Projection& projection) const;
 
  private:
@@ -121,11 +130,11 @@ class ContactBatches {
 
   const ContactRows* rows_;
   BatchUnits units_;
-  std::vector<std::size_t> lane_of_;  // Of each contact, counted through all batches.
-  std::vector<std::array<std::size_t, 2>> bodies_of_;  // Of each contact.
+  std::vector<std::size_t> lane_of_;  // Lane of each contact, counted through all batches.
+  std::vector<std::array<std::size_t, 2>> bodies_of_;  // Bodies of each contact.
   std::vector<PairBatch<Number>> pairs_;
   std::vector<ContactBatch<Number>> batches_;
-  std::vector<Number> sliding_;  // Of each lane.
+  std::vector<Number> sliding_;  // Alpha of each lane.
   std::size_t bodies_ = 0;
 };
 

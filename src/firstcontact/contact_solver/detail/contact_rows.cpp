@@ -18,7 +18,7 @@ Matrix3d cross_matrix(const Vector3d& v) {
   return m;
 }
 
-/// Of one of the two bodies: sign -1 for A, 1 for B.
+/// The Jacobian of one of the two bodies: sign -1 for A, 1 for B.
 RowSide::Jacobian jacobian(const ContactPoint& contact, int side) {
   const double sign = side == 0 ? -1.0 : 1.0;
   RowSide::Jacobian J;
@@ -49,7 +49,7 @@ RowSide make_side(const ContactProblem& problem, const VelocityLayout& layout,
   return made;
 }
 
-/// To a frame with other tangents.
+/// Turns a side to a frame with other tangents.
 void turn(const Matrix3d& by, RowSide& side) {
   if (side.is_link()) {
     side.J_q = (by * side.J_q).eval();
@@ -90,7 +90,7 @@ TieRowSide make_side(const ContactProblem& problem, const VelocityLayout& layout
   return made;
 }
 
-/// Two links of one mechanism are one side.
+/// Makes the row of a tie. Two links of one mechanism are one side.
 DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout, const TieRow& tie) {
   DriveRow row{.own = tie.compliance,
                .target = tie.target,

@@ -20,25 +20,25 @@ inline bool is_movable(const ContactBody& body) {
   return !body.link && (body.inverse_inertia.mass.any() || body.inverse_inertia.rotation.any());
 }
 
-/// Where the velocities of a problem stand in one vector: of each body that is no link (v, w), then
-/// the coordinates of each mechanism.
+/// The indices of a problem's velocities in one vector. First (v, w) of each body that is no link,
+/// then the coordinates of each mechanism.
 struct VelocityLayout {
   explicit VelocityLayout(const ContactProblem& problem);
 
-  std::vector<Eigen::Index> body;  // Of a link: that of its mechanism.
+  std::vector<Eigen::Index> body;  // For a link that of its mechanism.
   std::vector<Eigen::Index> mechanism;
   Eigen::Index size = 0;
 };
 
-/// The part of one of the two bodies in a contact: u_s = J V, and impulses change V by M^-1 J^T.
+/// The share of one of the two bodies in a contact: u_s = J V, and impulses change V by M^-1 J^T.
 struct RowSide {
   using Jacobian = Eigen::Matrix<double, 3, 6>;
   using Response = Eigen::Matrix<double, 6, 3>;
 
-  Eigen::Index at = 0;  // In the vector of velocities.
+  Eigen::Index at = 0;  // Index in the vector of velocities.
   Jacobian J = Jacobian::Zero();
   Response response = Response::Zero();
-  // Of a mechanism, in place of those above.
+  // For a mechanism, in place of J and response.
   Eigen::Matrix3Xd J_q = {};
   Eigen::MatrixX3d response_q = {};
 
@@ -56,13 +56,13 @@ struct RowSide {
   }
 };
 
-/// u = J_A V_A + J_B V_B, in the contact's frame with the tangents of its response.
+/// A contact as a row: u = J_A V_A + J_B V_B, in its frame with the tangents of its response.
 struct ContactRow {
-  /// Two links of one mechanism are one side, and the other one has Jacobians of zeros.
+  /// The sides of A and B. Two links of one mechanism are one side; then the other has zeros.
   std::array<RowSide, 2> sides;
-  ContactResponse own;  // To its own impulse, J M^-1 J^T.
+  ContactResponse own;  // Response to its own impulse, J M^-1 J^T.
   double friction;
-  Eigen::Vector3d target;  // [m/s]  The least normal velocity, and the one at which it sticks.
+  Eigen::Vector3d target;  // [m/s]  The least normal velocity, and the velocity at which it sticks.
 
   [[nodiscard]] double greatest() const { return own.greatest(); }
   [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
@@ -77,11 +77,13 @@ struct ContactRow {
   }
 };
 
+/// Makes the row of a contact.
+///
 /// @param layout  of the problem
 [[nodiscard]] ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
                                   const ContactPoint& contact);
 
-/// Solves one contact with all others held. Returns how much its velocity changes [m/s].
+/// Solves one contact with all others held. Returns the change of its velocity [m/s].
 inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen::VectorXd& V) {
   if (!(row.greatest() > 0.0)) {
     return 0.0;
@@ -98,25 +100,25 @@ inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen
   return change.norm() * row.greatest();
 }
 
-/// The part of one body in a tie: it adds J V to its velocity, and impulses change V by the
+/// The share of one body in a tie: J V is added to the velocity, and impulses change V by the
 /// response.
 struct TieRowSide {
-  Eigen::Index at = 0;  // In the vector of velocities.
+  Eigen::Index at = 0;  // Index in the vector of velocities.
   Eigen::VectorXd J = {};
   Eigen::VectorXd response = {};
 };
 
 /// A drive of one coordinate, or a tie.
 struct DriveRow {
-  Eigen::Index at = 0;          // Of its mechanism.
-  Eigen::Index place = 0;       // Of its coordinate.
-  Eigen::VectorXd column = {};  // Of the mechanism's inverse mass.
-  double own;                   // To its own impulse, with its compliance.
+  Eigen::Index at = 0;          // Index of the first velocity of its mechanism.
+  Eigen::Index place = 0;       // Index of its coordinate.
+  Eigen::VectorXd column = {};  // Column of the mechanism's inverse mass.
+  double own;                   // Response to its own impulse, with its compliance.
   double target;
   double compliance;
   double least;
   double greatest;
-  std::vector<TieRowSide> tie = {};  // Of a tie, in place of the first three.
+  std::vector<TieRowSide> tie = {};  // Sides of a tie, in place of the first three.
 
   [[nodiscard]] double velocity(const Eigen::VectorXd& V) const {
     if (tie.empty()) {
@@ -128,7 +130,7 @@ struct DriveRow {
     }
     return u;
   }
-  /// u + compliance r - target
+  /// Computes u + compliance r - target.
   [[nodiscard]] double excess_velocity(double impulse, const Eigen::VectorXd& V) const {
     return velocity(V) + compliance * impulse - target;
   }
@@ -149,20 +151,21 @@ struct ContactRows {
   VelocityLayout layout;
   Eigen::VectorXd free_velocities;
   std::vector<ContactRow> contacts;
-  std::vector<DriveRow> drives;  // Then the ties.
+  std::vector<DriveRow> drives;  // The drives, then the ties.
 };
 
+/// The impulses of all rows.
 struct Impulses {
   std::vector<Eigen::Vector3d> contacts;  // [N s]  In the frames of the rows.
-  std::vector<double> drives;             // [N m s or N s]  Then of the ties.
+  std::vector<double> drives;             // [N m s or N s]  Those of drives, then of ties.
 };
 
-/// [m/s]  The residual of one contact as in contact_residual(); not finite where it cannot be
-/// computed.
+/// [m/s]  Computes the residual of one contact as in contact_residual(). It is not finite where it
+/// cannot be computed.
 [[nodiscard]] double residual_of(const ContactRow& row, const Eigen::Vector3d& impulse,
                                  const Eigen::VectorXd& V);
 
-/// [m/s]  As contact_residual().
+/// [m/s]  Computes the greatest residual of all rows, as contact_residual().
 [[nodiscard]] double greatest_residual(const ContactRows& rows, const Impulses& impulses,
                                        const Eigen::VectorXd& V);
 
@@ -174,10 +177,11 @@ struct Projection {
   int iterations = 0;
 };
 
-/// The free velocities changed by impulses.
+/// Computes the velocities after impulses, from the free ones.
 [[nodiscard]] Eigen::VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses);
 
-/// The problem's bodies, mechanisms and drives with a projection's velocities and impulses.
+/// Makes the solution: the problem's bodies, mechanisms and drives with a projection's velocities
+/// and impulses.
 [[nodiscard]] ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
                                           const Projection& projection, ProjectionSpace space);
 

@@ -11,10 +11,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// [-]  A wedge that closes squeezes a body out faster than that, but not by so much.
+/// [-]  A wedge that closes squeezes a body out faster than its rows move, but not by this factor.
 constexpr double kOutOfReach = 30.0;
 
-/// [m/s]  That a row has, or asks for.
+/// [m/s]  The greatest speed that a row has or wants.
 double fastest(const ContactRows& rows) {
   double speed = 0.0;
   for (const ContactRow& row : rows.contacts) {
@@ -26,15 +26,14 @@ double fastest(const ContactRows& rows) {
   return speed;
 }
 
-/// [kg]  The mass of coordinates for a row that the least of their velocities move. The row's own
-/// response may be that of a mass that is smaller by far: on a long arm a body turns out of the
-/// way.
+/// [kg]  The mass of coordinates along a row, for the least velocities that move it. The row's own
+/// response may be that of a much smaller mass: on a long arm a body turns out of the way.
 double mass_along(const Eigen::VectorXd& J, const Eigen::MatrixXd& mass) {
   const double squared = J.squaredNorm();
   return squared > 0.0 ? J.dot(mass * J) / (squared * squared) : 0.0;
 }
 
-/// [kg]  Of the bodies that are no links.
+/// [kg]  The greatest mass of the bodies that are no links.
 double heaviest_body(const ContactProblem& problem) {
   double heaviest = 0.0;
   for (const ContactBody& body : problem.bodies) {
@@ -47,7 +46,7 @@ double heaviest_body(const ContactProblem& problem) {
 
 /// [kg]  The greatest mass of a mechanism for its contacts and ties.
 ///
-/// @param at  its place among the velocities
+/// @param at  index of the mechanism's first velocity
 double heaviest_along(const ContactRows& rows, const ContactMechanism& mechanism, Eigen::Index at) {
   const Eigen::MatrixXd mass = mechanism.inverse_mass.inverse();
   double heaviest = 0.0;
@@ -66,7 +65,7 @@ double heaviest_along(const ContactRows& rows, const ContactMechanism& mechanism
   return heaviest;
 }
 
-/// [kg]  Of bodies, of mechanisms for what touches or ties them, and of drives.
+/// [kg]  The greatest mass of bodies, of mechanisms for their contacts and ties, and of drives.
 double heaviest(const ContactProblem& problem, const ContactRows& rows) {
   double heaviest = heaviest_body(problem);
   for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
@@ -79,7 +78,7 @@ double heaviest(const ContactProblem& problem, const ContactRows& rows) {
   return heaviest;
 }
 
-/// An impulse of a drive that may grow without end, 0 of any other one.
+/// The impulse of a drive that may grow without end, 0 for any other drive.
 double endless_part(const DriveRow& row, double impulse) {
   const bool is_endless = std::isinf(impulse > 0.0 ? row.greatest : row.least);
   return is_endless && row.compliance == 0.0 ? impulse : 0.0;

@@ -14,15 +14,16 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Added to a response, relative to its greatest entry: locked axes leave directions without one.
+/// Added to a response, relative to its greatest entry: a locked axis leaves a direction without
+/// one.
 constexpr double kRegularisation = 1e-13;
 
-/// [-]  How far the side of a cone may be missed.
+/// [-]  Tolerance of the side of a cone.
 constexpr double kConeTolerance = 1e-13;
 
 /// The rotation about the normal to axes along which a tangential system is diagonal.
 Matrix3d principal_turn(const Matrix2d& A) {
-  // Half the angle of (x, y), by sums of what has one sign.
+  // Half the angle of (x, y), by sums of terms of one sign.
   const double x = A(0, 0) - A(1, 1);
   const double y = 2.0 * A(0, 1);
   const double length = std::sqrt(x * x + y * y);
@@ -121,7 +122,7 @@ Vector3d ContactResponse::sliding(const Vector3d& u_free, double friction) const
     const double normal = pressed - coupling_.dot(r_t.matrix());
     const double per_side = 1.0 / r_t.matrix().norm();
     r << normal, r_t;
-    // mu r_n / |r_t| is nearly a line; < 1: outside the cone, alpha is too small.
+    // mu r_n / |r_t| is almost a line. Below 1, r is outside the cone and alpha is too small.
     const double ratio = friction * normal * per_side;
     if (std::abs(ratio - 1.0) <= kConeTolerance) {
       break;

@@ -11,11 +11,13 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Gives out the lanes of pair batches, each from a batch on; skips many full ones at once.
+/// Hands out the lanes of pair batches, from a given batch on; skips many full batches at once.
 class FreeLanes {
  public:
   explicit FreeLanes(std::size_t lanes) : lanes_(lanes) {}
 
+  /// Takes a free lane.
+  ///
   /// @param count    of the pair's contacts
   /// @param may_use  whether the pair may be in a batch
   template <class MayUse>
@@ -37,8 +39,8 @@ class FreeLanes {
   [[nodiscard]] std::vector<std::size_t> take_counts() { return std::move(counts_); }
 
  private:
-  /// Pairs with as many contacts leave no lane empty: of a few batches the one whose pairs have, or
-  /// else the first.
+  /// Chooses among a few batches with room the one whose pairs have as many contacts, as it leaves
+  /// no lane empty; else the first.
   template <class MayUse>
   std::size_t likest_with_room(std::size_t batch, std::size_t count, const MayUse& may_use) {
     std::optional<std::size_t> first;
@@ -69,7 +71,7 @@ class FreeLanes {
   static constexpr int kLooks = 16;
 
   std::size_t lanes_;
-  std::vector<std::size_t> next_;  // Of each batch: itself, or a later one where it is full.
+  std::vector<std::size_t> next_;  // For each batch itself, or a later one where it is full.
   std::vector<std::size_t> used_;
   std::vector<std::size_t> counts_;
 };
@@ -88,7 +90,8 @@ GraphColouring place_in_order(const ContactProblem& problem, std::size_t lanes) 
   const std::vector<ContactPoint>& contacts = problem.contacts;
   GraphColouring placed;
   placed.places.resize(contacts.size());
-  std::vector<std::size_t> next(problem.bodies.size(), 0);  // After the last batch of the body.
+  // For each body the batch after its last one.
+  std::vector<std::size_t> next(problem.bodies.size(), 0);
   FreeLanes free(lanes);
   for_each_pair(contacts, [&](std::size_t first, std::size_t count) {
     const auto [a, b] = contacts[first].bodies;
@@ -102,11 +105,11 @@ GraphColouring place_in_order(const ContactProblem& problem, std::size_t lanes) 
   return placed;
 }
 
-/// In which batches a body is.
+/// The batches of a body.
 class BatchesOfBody {
  public:
   [[nodiscard]] bool has(std::size_t batch) const { return batch < is_in_.size() && is_in_[batch]; }
-  /// It is in all before.
+  /// The first batch without the body.
   [[nodiscard]] std::size_t first_without() const { return first_without_; }
   void add(std::size_t batch) {
     is_in_.resize(std::max(is_in_.size(), batch + 1), false);
@@ -121,7 +124,7 @@ class BatchesOfBody {
   std::size_t first_without_ = 0;
 };
 
-/// Each in the first batch in which its bodies are not yet.
+/// Places each pair in the first batch without its bodies.
 GraphColouring place_anyhow(const ContactProblem& problem, std::size_t lanes) {
   const std::vector<ContactPoint>& contacts = problem.contacts;
   GraphColouring placed;

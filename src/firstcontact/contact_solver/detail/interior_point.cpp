@@ -19,40 +19,43 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kSweeps = 20;    // After each.
-constexpr double kFall = 0.7;  // [-]  Of the residual in a round, or it is the last.
+constexpr int kSweeps = 20;  // Sweeps after each round.
+// [-]  Fall of the residual in a round; a smaller fall ends the rounds.
+constexpr double kFall = 0.7;
 constexpr int kMostSteps = 40;
-constexpr double kConvexTolerance = 5.0;  // Of the tolerance; sweeps follow.
+constexpr double kConvexTolerance = 5.0;  // Multiple of the tolerance; sweeps follow.
 constexpr int kPatience = 5;              // Steps without a residual of half the best one.
 
-/// Sliding speeds are taken a little smaller than they were: where one is too small the contact
-/// opens, where it is too great the bodies would come nearer.
+/// Fraction of the sliding speeds that is taken. Where one is too small the contact opens; where it
+/// is too great the bodies would come nearer.
 constexpr double kShareOfSliding = 0.95;
 
-constexpr double kRounding = 1e-12;  // [-]  Of a discriminant.
+constexpr double kRounding = 1e-12;  // [-]  Rounding of a discriminant.
 
-/// A shorter step is first spent on getting back to the middle of the cones.
+/// [-]  A shorter step is replaced by one back to the middle of the cones.
 constexpr double kShortStep = 0.1;
-constexpr double kLeastStep = 1e-4;   // [-]  Shorter ones lead nowhere.
-constexpr double kShareOfWay = 0.99;  // To the side of a cone that a step may go.
+constexpr double kLeastStep = 1e-4;  // [-]  A shorter step ends the search.
+// Fraction of the way to the side of a cone that a step may go.
+constexpr double kShareOfWay = 0.99;
 
-/// Complementarity is not driven further below what velocities miss than this: near the sides of
-/// its cones a step could not make up for them.
+/// The least complementarity as a fraction of the work of the velocities' error. With less, near
+/// the sides of its cones, a step could not make up for that error.
 constexpr double kPartOfMissing = 0.1;
 
-/// Nor in one step to less than this part, or below what tells nothing more at the tolerance: the
+/// The least complementarity after one step, as a fraction of the one before. With less, the
 /// equations would have no digits left.
 constexpr double kGreatestFall = 0.001;
 
+/// The least complementarity of all, as a fraction of that at the tolerance.
 constexpr double kShareOfTolerance = 0.25;
 
-/// y_0^2 - |y_t|^2
+/// Computes y_0^2 - |y_t|^2.
 double determinant(const Vector3d& y) {
   const double t = y.tail<2>().norm();
   return (y[0] - t) * (y[0] + t);
 }
 
-/// J y, the tangents turned round.
+/// Computes J y, the tangents reversed.
 Vector3d mirrored(const Vector3d& y) { return {y[0], -y[1], -y[2]}; }
 
 /// The product and the quotient of the cone's algebra.
@@ -69,7 +72,7 @@ Vector3d quotient(const Vector3d& d, const Vector3d& by) {
   return q;
 }
 
-/// How far y + step dy stays in the cone.
+/// Finds the length of the step dy for which y stays in the cone.
 double way_inside(const Vector3d& y, const Vector3d& dy) {
   const double a = determinant(dy);
   const double b = y.dot(mirrored(dy));
@@ -82,7 +85,7 @@ double way_inside(const Vector3d& y, const Vector3d& dy) {
   return divisor > 0.0 ? c / divisor : std::numeric_limits<double>::infinity();
 }
 
-/// Nesterov and Todd's: W z = W^-1 y.
+/// The scaling of Nesterov and Todd: W z = W^-1 y.
 struct Scaling {
   Scaling(const Vector3d& y, const Vector3d& z) {
     const double det_y = determinant(y);
@@ -108,7 +111,7 @@ struct Scaling {
 
   Matrix3d W;
   Matrix3d inverse;
-  Vector3d point;  // Lambda, of both.
+  Vector3d point;  // Lambda, the scaled point of both.
 };
 
 class InteriorPoint {
@@ -147,15 +150,16 @@ class InteriorPoint {
   }
 
  private:
-  /// P = diag(1, mu, mu) makes a cone of Coulomb that of Lorentz, which is its own dual.
+  /// A contact in the rounds. P = diag(1, mu, mu) maps Coulomb's cone to that of Lorentz, its own
+  /// dual.
   struct Contact {
     std::size_t row;
     Vector3d u_free;                // [m/s]  At x = 0, without the least normal velocity.
     Vector3d scale;                 // P
-    double sliding = 0.0;           // [m/s]  mu |u_t|, as it is taken to be.
+    double sliding = 0.0;           // [m/s]  mu |u_t|, as it is fixed for the round.
     Vector3d y = Vector3d::Zero();  // [m/s]  P u + sliding n
     Vector3d z = Vector3d::Zero();  // [N s]  P^-1 r
-    // Of a step.
+    // Data of a step.
     Scaling scaling = Scaling(Vector3d::UnitX(), Vector3d::UnitX());
     Vector3d missing = Vector3d::Zero();  // [m/s]  P u + sliding n - y
     Vector3d dy = Vector3d::Zero();
@@ -193,8 +197,8 @@ class InteriorPoint {
     return least;
   }
 
-  /// In the middle of the cones, with impulses that would stop the heaviest body: from great ones
-  /// steps are long, while they could grow but little where light bodies bear heavy ones.
+  /// Starts in the middle of the cones, with impulses that would stop the heaviest body. From great
+  /// impulses steps are long. Small ones could grow only slowly where light bodies bear heavy ones.
   void start(const ProjectionOptions& options) {
     x_ = VectorXd::Zero(coordinates_.size());
     double fastest = std::numeric_limits<double>::min();
@@ -211,10 +215,11 @@ class InteriorPoint {
     least_complementarity_ = kShareOfTolerance * options.tolerance * options.tolerance / response;
   }
 
-  /// The problem with these sliding speeds. Returns the number of steps.
+  /// Solves the problem with these sliding speeds. Returns the number of steps.
   int solve_convex(const ProjectionOptions& options) {
     start(options);
-    double goal = std::numeric_limits<double>::infinity();  // What the next steps have to reach.
+    // Residual that the next steps have to reach.
+    double goal = std::numeric_limits<double>::infinity();
     int waited = 0;
     int steps = 0;
     for (; steps < kMostSteps && waited < kPatience; ++steps) {
@@ -240,7 +245,7 @@ class InteriorPoint {
     }
   }
 
-  /// [m/s]  As contact_residual(), with these sliding speeds.
+  /// [m/s]  The residual as in contact_residual(), with these sliding speeds.
   [[nodiscard]] double convex_residual() const {
     const VectorXd x = coordinates_.moved_by(impulses());
     double greatest = 0.0;
@@ -264,7 +269,7 @@ class InteriorPoint {
     return impulses;
   }
 
-  /// [J]  Means over the contacts.
+  /// [J]  The mean complementarity of the contacts.
   [[nodiscard]] double complementarity() const {
     double sum = 0.0;
     for (const Contact& contact : contacts_) {
@@ -291,8 +296,8 @@ class InteriorPoint {
     matrix_.factorise();
   }
 
-  /// Newton's step to x = G^T r, P u + sliding n = y, and W dz + W^-1 dy = wanted of each contact.
-  /// Returns dx.
+  /// Finds Newton's step to x = G^T r, P u + sliding n = y, and W dz + W^-1 dy = wanted for each
+  /// contact. Returns dx.
   template <class Wanted>
   VectorXd find_step(const Wanted& wanted) {
     const BlockRows<3>& G = coordinates_.contacts();
@@ -321,7 +326,7 @@ class InteriorPoint {
     return length;
   }
 
-  /// Predicts, and goes on with the predicted second order. Returns how much of the step it went.
+  /// Makes a step: predicts it, and corrects by the predicted second order. Returns its length.
   double advance() {
     factorise();
     find_step([](const Contact& contact) { return Vector3d(-contact.scaling.point); });

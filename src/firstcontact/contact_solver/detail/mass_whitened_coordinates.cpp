@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// S of a mechanism: with M^-1 = L L^T, S = L, and columns of zeros up to whole blocks.
+/// Computes S of a mechanism: with M^-1 = L L^T, S = L, with columns of zeros up to whole blocks.
 MatrixXd square_root(const MatrixXd& inverse_mass) {
   const Index n = inverse_mass.rows();
   MatrixXd S = MatrixXd::Zero(n, (n + 5) / 6 * 6);
@@ -72,7 +72,7 @@ void MassWhitenedCoordinates::add_part(Index in_V, MatrixXd root) {
   size_ += parts_.back().root.cols();
 }
 
-/// Null of what nothing moves.
+/// Finds the part with a velocity; null for a body that nothing moves.
 const MassWhitenedCoordinates::Part* MassWhitenedCoordinates::part_of(Index in_V) const {
   const std::size_t part = part_at_[static_cast<std::size_t>(in_V)];
   return part == kNone ? nullptr : &parts_[part];

@@ -1,5 +1,5 @@
 /// @file
-/// Coordinates of a contact problem in which its kinetic metric is that of Euclid.
+/// Mass-whitened coordinates of a contact problem: its kinetic metric is Euclid's in them.
 
 #pragma once
 
@@ -15,13 +15,15 @@
 
 namespace firstcontact::detail {
 
-/// A square root S of the inverse inertia, S S^T = M^-1; columns of locked axes are zero.
+/// Computes a square root S of the inverse inertia, S S^T = M^-1; columns of locked axes are zero.
 [[nodiscard]] Eigen::Matrix<double, 6, 6> square_root(const InverseInertia& inverse);
 
-/// x with V = V_free + S x for each body and mechanism, S S^T = M^-1: |V - V_free|_M = |x|, and
-/// bodies that nothing moves fall out.
+/// Coordinates x with V = V_free + S x for each body and mechanism, S S^T = M^-1. So |V - V_free|_M
+/// = |x|, and bodies that nothing moves have no coordinates.
 class MassWhitenedCoordinates {
  public:
+  /// Makes the coordinates of a problem.
+  ///
   /// @param rows  of the problem
   MassWhitenedCoordinates(const ContactProblem& problem, const ContactRows& rows);
 
@@ -29,10 +31,10 @@ class MassWhitenedCoordinates {
   [[nodiscard]] const BlockRows<3>& contacts() const { return contacts_; }
   [[nodiscard]] const BlockRows<1>& drives() const { return drives_; }
 
-  /// The displacement x by impulses: V(x) = V_free + M^-1 J^T r.
+  /// Computes the displacement x by impulses: V(x) = V_free + M^-1 J^T r.
   [[nodiscard]] Eigen::VectorXd moved_by(const Impulses& impulses) const;
 
-  /// For all matrices I + G^T D G.
+  /// Makes the matrix with room for all I + G^T D G.
   [[nodiscard]] BlockCholesky factorisation();
 
  private:
@@ -49,7 +51,7 @@ class MassWhitenedCoordinates {
   void add_side(const RowSide& side);
 
   std::vector<Part> parts_;
-  std::vector<std::size_t> part_at_;  // Where its velocities begin.
+  std::vector<std::size_t> part_at_;  // Index in parts_ by the first velocity.
   BlockRows<3> contacts_;
   BlockRows<1> drives_;
   Eigen::Index size_ = 0;

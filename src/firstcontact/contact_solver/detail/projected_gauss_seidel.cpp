@@ -29,7 +29,7 @@ double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
   return std::abs(change) * row.own;
 }
 
-/// Contacts and drives one by one. The state: all impulses, then the velocities.
+/// Sweeps over contacts and drives one by one. The state: all impulses, then the velocities.
 class RowSweeps {
  public:
   explicit RowSweeps(const ContactRows& rows)
@@ -37,7 +37,7 @@ class RowSweeps {
         drives_at_(static_cast<Index>(3 * rows.contacts.size())),
         V_at_(drives_at_ + static_cast<Index>(rows.drives.size())) {}
 
-  /// Squared lengths are those of impulses, weighed by what they change.
+  /// The weights of squared lengths: impulses count by their changes of velocity.
   [[nodiscard]] VectorXd weights() const {
     VectorXd weights = VectorXd::Zero(V_at_ + rows_.layout.size);
     Index at = 0;
@@ -63,6 +63,8 @@ class RowSweeps {
     return state;
   }
 
+  /// Runs a sweep.
+  ///
   /// @returns [m/s]  the greatest change of a velocity
   double sweep(bool backwards, VectorXd& state) const {
     VectorXd V = state.tail(rows_.layout.size);
@@ -108,25 +110,26 @@ class RowSweeps {
   Index V_at_;
 };
 
-/// Where changes fell by less than this since so many sweeps before, more of them hardly help. Then
-/// this part of what is enough ends them, but near the tolerance: there things come to rest. It
-/// ends them, too, where things are hit, by so many times what is enough.
+/// Every kLook sweeps the changes are compared. Where they fell by less than kFall, more sweeps
+/// gain little: then a residual of kPartOfEnough of `enough` ends them. Near the tolerance it does
+/// not, as bodies come to rest there. After a hit it always does: the first residual is above kHit
+/// of `enough`.
 constexpr int kLook = 10;
 constexpr double kFall = 0.5;
 constexpr double kPartOfEnough = 0.5;
 constexpr double kNearTolerance = 10.0;
 constexpr double kHit = 10.0;
 
-/// [sweeps]  Where changes are small enough and the residual is not, velocities are made anew from
-/// the impulses, which costs as much as a sweep: not more often than that.
+/// [sweeps]  Least distance of two renewals: where changes are small and the residual is not,
+/// velocities are computed anew from the impulses. A renewal costs as much as a sweep.
 constexpr int kRenewal = 10;
 
-/// There and back: a stack of n bodies would need n sweeps in one direction.
+/// Sweeps there and back: a stack of n bodies would need n sweeps in one direction.
 template <class Sweeps>
 void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& projection) {
   auto state = sweeps.state_of(projection);
   ConjugateDirection direction(sweeps.weights());
-  double before = std::numeric_limits<double>::infinity();  // Changes at the last look.
+  double before = std::numeric_limits<double>::infinity();  // Changes at the last comparison.
   const bool is_hit = projection.residual > kHit * options.enough;
   int renewed = -kRenewal;
   int& count = projection.iterations;
@@ -149,7 +152,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
       if (projection.residual <= wanted) {
         return;
       }
-      state = sweeps.state_of(projection);  // Without what rounding added up.
+      state = sweeps.state_of(projection);  // Without the roundings that added up.
       renewed = count;
     }
     if (backwards && count < options.sweeps) {
@@ -160,7 +163,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
 }
 
 /// Whether responses and friction are of like size everywhere: then products of all numbers of a
-/// contact are far from the ends of single precision. Not where axes are locked.
+/// contact are far from the limits of single precision. It is false where axes are locked.
 bool are_alike(const ContactRows& rows, const BatchUnits& units) {
   constexpr double kRange = 1e4;
   return std::ranges::all_of(rows.contacts, [&](const ContactRow& row) {
@@ -171,8 +174,8 @@ bool are_alike(const ContactRows& rows, const BatchUnits& units) {
   });
 }
 
-/// [m/s]  What sweeps in single precision tell apart: a few 2^-24 of what bodies change by, and of
-/// what impulses do to their contacts.
+/// [m/s]  The resolution of sweeps in single precision: a few 2^-24 of the changes of velocity of
+/// bodies and at contacts.
 double told_by_single_precision(const ContactRows& rows, const BatchUnits& units,
                                 const Projection& projection) {
   double greatest = units.velocity;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Contacts that wait to be solved, each once; first come, first served.
+/// The contacts that wait to be solved, each once; first come, first served.
 class WaitingContacts {
  public:
   explicit WaitingContacts(std::size_t count) : waits_(count, false) {}
@@ -64,11 +64,11 @@ class ContactsOfBodies {
   }
 
  private:
-  std::vector<std::size_t> first_;  // Of body b: first_[b] to first_[b + 1].
+  std::vector<std::size_t> first_;  // The contacts of body b are first_[b] to first_[b + 1].
   std::vector<std::size_t> contacts_;
 };
 
-/// The part of a problem that is looked at: its rows are made when they are asked for.
+/// The neighbourhood of the changed contacts: its rows are made when they are needed.
 class Neighbourhood {
  public:
   Neighbourhood(const ContactProblem& problem, const ContactSolution& before)
@@ -179,7 +179,7 @@ class Neighbourhood {
     V_.segment<6>(layout_.body[b]) << body.v, body.w;
   }
 
-  /// Of other contacts no body moves otherwise than before.
+  /// The greatest residual of the reached contacts. No other body moves otherwise than before.
   [[nodiscard]] double residual() {
     for (const std::size_t b : reached_) {
       if (is_movable(problem_.bodies[b])) {
@@ -199,7 +199,7 @@ class Neighbourhood {
   const ContactSolution& before_;
   VelocityLayout layout_;
   ContactsOfBodies contacts_of_;
-  std::vector<std::size_t> row_of_;  // Of each contact, among those made.
+  std::vector<std::size_t> row_of_;  // For each contact its row, among those made.
   std::deque<Row> rows_;
   std::vector<bool> is_reached_;
   std::vector<std::size_t> reached_;  // Bodies that may move otherwise than before.

@@ -11,11 +11,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// [-]  What is left of a row's response, as a part of the greatest that it could have.
+/// [-]  The least part of a row's response across other rows, as a fraction of its greatest one.
 constexpr double kRedundant = 1e-12;
 
-/// [1/kg]  The response of a row in the direction in which its bodies yield most: below a tiny part
-/// of it a response is rounding.
+/// [1/kg]  The response of a row in the direction in which its bodies yield most. A response below
+/// a tiny fraction of it is rounding.
 double greatest_response(const TieRow& row, const ContactProblem& problem) {
   double sum = 0.0;
   for (const TieSide& side : row.sides) {
@@ -34,7 +34,7 @@ double greatest_response(const TieRow& row, const ContactProblem& problem) {
   return sum;
 }
 
-/// J M^-1 J^T
+/// Computes J M^-1 J^T.
 MatrixXd response_of(const ContactProblem& problem) {
   const auto n = static_cast<Index>(problem.ties.size());
   MatrixXd response(n, n);

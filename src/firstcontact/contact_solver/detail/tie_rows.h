@@ -1,5 +1,5 @@
 /// @file
-/// What rows of ties do to each other, and which say again what others say.
+/// Couplings of rows of ties, and the rows that others imply.
 
 #pragma once
 
@@ -9,15 +9,16 @@
 
 namespace firstcontact::detail {
 
-/// [1/kg]  What an impulse along one row does to the velocity along another one.
+/// [1/kg]  Computes the velocity along one row that a unit impulse along another row causes.
 [[nodiscard]] double inverse_mass_between(const TieRow& one, const TieRow& other,
                                           const ContactProblem& problem);
 
-/// The rows that the rows before them imply, as the second hinge of a door, and those that nothing
-/// can move along.
+/// Finds the rows that the rows before them imply, as the second hinge of a door, and those along
+/// which nothing can move.
 ///
 /// A Cholesky factorisation of J M^-1 J^T finds them, row by row. Less than 1e-12 of such a row's
-/// greatest possible response is left: rounding, or the square of how exactly joints hold.
+/// greatest possible response is left. That is rounding, or the square of the precision to which
+/// joints hold.
 ///
 /// @param problem  with the rows as its ties: joints where bodies are now
 [[nodiscard]] std::vector<bool> find_redundant(const ContactProblem& problem);

@@ -36,7 +36,7 @@ struct Part {
   }
 };
 
-/// x of the bodies on one side, of some lanes from one on.
+/// The coordinates x of the bodies on one side, for some lanes from one on.
 template <class Number>
 struct Bodies {
   using Places = hn::RebindToSigned<Tag<Number>>;
@@ -67,7 +67,7 @@ struct Bodies {
   Vector<Number> x0, x1, x2, x3, x4, x5;
 };
 
-/// J x, added to a sum.
+/// Adds J x to a sum.
 template <class Number>
 HWY_INLINE Vector<Number> seen(const Part<Number>& part, const std::array<Lanes<Number>, 6>& J,
                                const Bodies<Number>& b, Vector<Number> sum) {
@@ -99,7 +99,7 @@ HWY_INLINE void change(const Part<Number>& part, const typename ContactBatch<Num
   b.x5 = changed<Number>(part, J, 5, by, b.x5);
 }
 
-/// ContactResponse::impulse() of many contacts.
+/// ContactResponse::impulse() for many contacts.
 template <class Number>
 class Cones {
  public:
@@ -114,7 +114,7 @@ class Cones {
         a1_(part.of(part.batch.tangential[1])),
         friction_(part.of(part.batch.friction)) {}
 
-  /// u without what its own impulse does.
+  /// Computes u without the effect of its own impulse.
   HWY_INLINE Velocity<Number> without(const Impulse<Number>& r, const Velocity<Number>& u) const {
     const V Wr_n = hn::Mul(W_nn_, hn::Add(r.n, coupled(r.t0, r.t1)));
     return {hn::Sub(u.n, Wr_n), hn::Sub(u.t0, hn::MulAdd(k0_, Wr_n, hn::Mul(a0_, r.t0))),
@@ -148,7 +148,7 @@ class Cones {
     return hn::MulAdd(k0_, t0, hn::Mul(k1_, t1));
   }
 
-  /// r_t = -(A + alpha I)^-1 c, and the normal impulse beside it.
+  /// Computes r_t = -(A + alpha I)^-1 c, and its normal impulse.
   HWY_INLINE Impulse<Number> held(const V& pressed, const V& c0, const V& c1,
                                   const V& alpha) const {
     const Tag<Number> d;
@@ -160,9 +160,9 @@ class Cones {
     return {hn::Sub(pressed, coupled(t0, t1)), t0, t1};
   }
 
-  /// The root of mu r_n / |r_t| - 1 by a few of Newton's steps from that of the sweep before: along
-  /// with the sweeps they get there. What is missing, the length of the tangential part makes up
-  /// for. In lanes that slide.
+  /// Finds the root of mu r_n / |r_t| - 1 for lanes that slide, by two of Newton's steps from the
+  /// root of the sweep before. Over the sweeps the roots converge. The tangential part is scaled to
+  /// the side of the cone, which makes up for the remaining error.
   HWY_INLINE void slide(const V& pressed, const V& c0, const V& c1, const Mask<Number>& slides,
                         Number* sliding, Impulse<Number>& r) const {
     const Tag<Number> d;
@@ -206,7 +206,7 @@ class Cones {
     put(hn::Mul(scale, found.t1), r.t1);
   }
 
-  /// Alpha, exact where A is isotropic and nothing is coupled.
+  /// Computes alpha, exact where A is isotropic and nothing is coupled.
   HWY_INLINE V isotropic(const V& pressed, const V& c0, const V& c1) const {
     const V c = hn::Sqrt(hn::MulAdd(c0, c0, hn::Mul(c1, c1)));
     return hn::Max(hn::Zero(Tag<Number>()),
@@ -224,7 +224,7 @@ HWY_INLINE void keep_greatest_change(const Part<Number>& part, const Impulse<Num
   greatest = hn::Max(greatest, hn::Mul(part.of(part.batch.greatest), hn::Sqrt(squared)));
 }
 
-/// Solves a contact of each pair. Whether that changed anything.
+/// Solves a contact of each pair. Returns whether that changed anything.
 template <class Number>
 HWY_INLINE bool solve_contact(const Part<Number>& part, Number* impulses, Number* sliding,
                               Bodies<Number>& A, Bodies<Number>& B, Vector<Number>& greatest) {
@@ -257,7 +257,7 @@ HWY_INLINE bool solve_contact(const Part<Number>& part, Number* impulses, Number
   return true;
 }
 
-/// A sweep and its data.
+/// The data of a sweep.
 template <class Number>
 struct Sweep {
   const ContactBatch<Number>* batches;
