@@ -48,12 +48,12 @@ struct ConvexCore {
   ///
   /// But for underflow, it is at most 2^-46 |n| reach above h(n).
   ///
-  /// Derivation, u = 2^-53, |n|_1 the sum of the components' sizes: each formula below is a sum of
-  /// products of components of n and of lengths up to the reach, and of the square root of a sum
+  /// Derivation, u = 2^-53, |n|_1 the sum of the components' sizes. Each formula below is a sum of
+  /// products of components of n and of lengths up to the reach. Some add the square root of a sum
   /// of squares of such products. Roots and sums of positive terms err by at most 5 u of
-  /// themselves; the value that is rounded is at most 2 |n|_1 reach in size, with the shift by
-  /// the origin 3 |n|_1 reach. So all errors together are below 18 u |n|_1 reach; 32 u are added.
-  /// A square that underflows loses at most 2^-1075, its root 2^-537; that and the rounding of
+  /// themselves. The value that is rounded is at most 2 |n|_1 reach in size, with the shift by the
+  /// origin 3 |n|_1 reach. So all errors together are below 18 u |n|_1 reach; 32 u are added. A
+  /// square that underflows loses at most 2^-1075, its root 2^-537. This loss and the rounding of
   /// other subnormal numbers are below the 2^-530 of the sizes and the 2^-1060 that are added.
   [[nodiscard]] double support_bound(const Eigen::Vector3d& n) const;
 

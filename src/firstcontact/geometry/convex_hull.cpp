@@ -24,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Index = std::uint32_t;
 
-/// Points at most 1 in size, as multiples of 2^-300.
+/// Scales points to at most 1 in size, as multiples of 2^-300.
 std::vector<Vector3d> normalised(const std::vector<Vector3d>& points) {
   double greatest = 0.0;
   for (const Vector3d& p : points) {
@@ -47,7 +47,7 @@ std::vector<Vector3d> normalised(const std::vector<Vector3d>& points) {
   return result;
 }
 
-/// Without coordinate k.
+/// Projects a point along axis k.
 Vector2d shadow_of(const Vector3d& p, int k) { return {p[(k + 1) % 3], p[(k + 2) % 3]}; }
 
 /// Four points that span space; fewer where all points lie in a plane, on a line, at one place.
@@ -63,7 +63,8 @@ class Simplex {
                 return std::abs((p - at(0)).dot((at(1) - at(0)).cross(at(2) - at(0))));
               });
     if (is_full() && orientation(at(0), at(1), at(2), at(3)) > 0) {
-      std::swap(corners_[0], corners_[1]);  // Seen from the fourth, the others turn to the right.
+      // Seen from the fourth corner, the others turn to the right.
+      std::swap(corners_[0], corners_[1]);
     }
   }
 
@@ -73,7 +74,7 @@ class Simplex {
  private:
   [[nodiscard]] const Vector3d& at(std::size_t k) const { return points_[corners_[k]]; }
 
-  /// Not on the line through the first two points: by its shadows on the three planes.
+  /// Whether a point is off the line through the first two, by its shadows on the three planes.
   [[nodiscard]] bool off_line(Index i) const {
     for (int k = 0; k < 3; ++k) {
       if (orientation(shadow_of(at(0), k), shadow_of(at(1), k), shadow_of(points_[i], k)) != 0) {
@@ -83,7 +84,7 @@ class Simplex {
     return false;
   }
 
-  /// The first two; a second only where it differs.
+  /// Adds the first two points; a second only where it differs.
   template <class Measure>
   void add_farthest(const Measure& measure) {
     Index best = 0;
@@ -102,8 +103,8 @@ class Simplex {
     }
   }
 
-  /// The farthest of those that add a dimension, exactly; nothing where none does or one before did
-  /// not.
+  /// Adds the farthest point that adds a dimension, exactly. Adds nothing where no point does, or
+  /// where an earlier step added nothing.
   template <class Adds, class Measure>
   void add_exact(const Adds& adds, const Measure& measure) {
     if (corners_.size() < expected_++) {
@@ -131,9 +132,10 @@ class Simplex {
 /// Grows a simplex, face by face, by the farthest point outside of it.
 ///
 /// A point sees a face if it lies strictly on its outer side. The faces that a point sees are
-/// replaced by those between it and their rim. A point seen by none of the new faces that were put
-/// in place of one it saw is inside: of a point that sees two faces across an edge of the rim, the
-/// new face of that edge is seen too.
+/// replaced by those between the point and their rim.
+///
+/// A point that lost the face that it saw, and sees no new face, is inside. Derivation: of a point
+/// that sees two faces across an edge of the rim, the new face of that edge is seen too.
 class QuickHull {
  public:
   QuickHull(const std::vector<Vector3d>& points, const std::vector<Index>& simplex)
@@ -165,15 +167,15 @@ class QuickHull {
 
  private:
   struct Face {
-    std::array<Index, 3> corners{};     ///< Turn to the left, seen from outside.
+    std::array<Index, 3> corners{};     ///< They turn to the left, seen from outside.
     std::array<Index, 3> neighbours{};  ///< Across the edges from corner k to k + 1.
-    std::vector<Index> outside;         ///< Points that see it, each with one face only.
+    std::vector<Index> outside;         ///< Points that see it; each is listed with one face only.
     Vector3d normal = Vector3d::Zero();
     bool alive = true;
     bool seen = false;
   };
 
-  /// An edge of the rim, with the face beyond it that stays.
+  /// An edge of the rim, with the face beyond the edge, which stays.
   struct RimEdge {
     Index from = 0;
     Index to = 0;
@@ -258,7 +260,7 @@ class QuickHull {
     return seen;
   }
 
-  /// In the order in which the edges follow each other.
+  /// Collects the rim in the order in which the edges follow each other.
   [[nodiscard]] std::vector<RimEdge> collect_rim(const std::vector<Index>& seen) const {
     std::vector<RimEdge> edges;
     for (const Index f : seen) {
@@ -280,7 +282,7 @@ class QuickHull {
     return rim;
   }
 
-  /// The faces between the rim and a point.
+  /// Adds the faces between the rim and a point.
   void add_cone(const std::vector<RimEdge>& rim, Index point) {
     const Index first = static_cast<Index>(faces_.size());
     const auto count = static_cast<Index>(rim.size());
@@ -303,7 +305,7 @@ class QuickHull {
   std::vector<Index> waiting_;
 };
 
-/// The coordinate that may be left out: the shadow of the plane has an area, the larger the better.
+/// Finds the coordinate to leave out: the one whose shadow of the plane has the greatest area.
 int thrown_axis(const std::vector<Vector3d>& points, const std::vector<Index>& simplex) {
   const Vector3d& a = points[simplex[0]];
   const Vector3d& b = points[simplex[1]];
@@ -319,8 +321,8 @@ int thrown_axis(const std::vector<Vector3d>& points, const std::vector<Index>& s
   return thrown;
 }
 
-/// The convex polygon of points in one plane, fanned; by their shadow on the coordinate plane that
-/// is nearest to theirs (A. M. Andrew, "Another efficient algorithm for convex hulls in two
+/// Finds the convex polygon of points in one plane, as a fan. It uses the shadow on the coordinate
+/// plane nearest to theirs (A. M. Andrew, "Another efficient algorithm for convex hulls in two
 /// dimensions", Information Processing Letters 9, 1979).
 std::vector<std::array<Index, 3>> planar_hull(const std::vector<Vector3d>& points,
                                               const std::vector<Index>& simplex) {
@@ -346,7 +348,7 @@ std::vector<std::array<Index, 3>> planar_hull(const std::vector<Vector3d>& point
         polygon.push_back(*i);
       }
     }
-    polygon.pop_back();  // Begins the other half.
+    polygon.pop_back();  // The last point begins the other half.
   };
   std::vector<Index> polygon;
   half(polygon, order.begin(), order.end());
@@ -358,7 +360,7 @@ std::vector<std::array<Index, 3>> planar_hull(const std::vector<Vector3d>& point
   return triangles;
 }
 
-/// The segment of points on one line.
+/// Finds the segment of points on one line.
 std::vector<std::array<Index, 3>> linear_hull(const std::vector<Vector3d>& points) {
   const auto [low, high] =
       std::minmax_element(points.begin(), points.end(), [](const Vector3d& a, const Vector3d& b) {
@@ -382,7 +384,7 @@ std::vector<std::array<Index, 3>> hull_triangles(const std::vector<Vector3d>& po
   }
 }
 
-/// Only the points that the triangles use, in their order.
+/// Makes a mesh of the points that the triangles use, in their order.
 Mesh compact(const std::vector<Vector3d>& points, std::vector<std::array<Index, 3>> triangles) {
   constexpr Index kUnused = std::numeric_limits<Index>::max();
   std::vector<Index> number(points.size(), kUnused);
@@ -422,7 +424,7 @@ Shape make_convex_hull(const std::vector<Vector3d>& points, double radius) {
   const bool encloses =
       hull.vertices.size() > 3 && hull.triangles.size() == 2 * hull.vertices.size() - 4;
   const Filling filling = encloses ? Filling::solid : Filling::surface;
-  // Queries look at every point of a set: of a hull of many points the triangles are faster.
+  // Queries visit every point of a set: for a hull of many points its triangles are faster.
   constexpr std::size_t kMostPoints = 64;
   const bool has_set_radius = radius == 0.0 || (radius >= kLeastSize && radius <= kGreatestSize);
   const bool is_in_range =

@@ -9,12 +9,12 @@
 namespace firstcontact {
 namespace {
 
-/// How far the middle of the box around the vertices that triangles use moves. Any vector is right:
-/// what the centre does not do, the vertices do.
+/// Estimates how far the middle of the box around the used vertices moves. Any vector is right: the
+/// vertices move by the difference.
 Eigen::Vector3d shared_translation(const Shape& shape, std::span<const Eigen::Vector3d> to) {
   Eigen::AlignedBox3d box;
   for (const std::uint32_t v : shape.hierarchy().vertex_index) {
-    if (v < to.size()) {  // Shape::deforming complains of the rest.
+    if (v < to.size()) {  // Shape::deforming refuses the rest.
       box.extend(to[v]);
     }
   }

@@ -23,9 +23,9 @@ Vector3d extent_of(const HierarchyNode& node, int slot) {
           static_cast<double>(node.half_extent(2, slot))};
 }
 
-/// Rounds the centre, and makes the extents larger by as much.
+/// Stores a box: rounds the centre, and makes the extents larger by as much.
 ///
-/// @param slack  covers what else was rounded
+/// @param slack  covers all other roundings
 void store(const Vector3d& centre, const Vector3d& extent, double slack, int slot,
            HierarchyNode& node) {
   for (int k = 0; k < 3; ++k) {
@@ -37,7 +37,7 @@ void store(const Vector3d& centre, const Vector3d& extent, double slack, int slo
   }
 }
 
-/// Triangles in the hierarchy's order, from first to before last: those of a subtree are
+/// A range of triangles in the hierarchy's order, from first to before last. Those of a subtree are
 /// neighbours.
 struct Range {
   std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
@@ -49,7 +49,7 @@ struct Range {
   }
 };
 
-/// Fits boxes with the axes that they have around vertices that have moved.
+/// Fits boxes with unchanged axes around vertices that have moved.
 class Refit {
  public:
   Refit(const Hierarchy& hierarchy, std::vector<HierarchyNode>& nodes)
@@ -84,8 +84,8 @@ class Refit {
         high = high.cwiseMax(q);
       }
     }
-    // 2^-47 covers the axes (2^-50, also where they lead back), the vertices and these products,
-    // all of them below 2.
+    // 2^-47 covers the axes (2^-50, and their inverse), the vertices and these products, all below
+    // 2.
     store(axes.transpose() * (0.5 * (low + high)), 0.5 * (high - low), 0x1p-47, slot, node);
   }
 
@@ -94,7 +94,8 @@ class Refit {
   double scale_;
 };
 
-/// The boxes of a hierarchy in a larger unit; a power of two, so that only extents are rounded.
+/// Expresses the boxes of a hierarchy in a larger unit; a power of two, so that only extents are
+/// rounded.
 void shrink(double ratio, std::vector<HierarchyNode>& nodes) {
   for (HierarchyNode& node : nodes) {
     for (int slot = 0; slot < HierarchyNode::kWidth; ++slot) {

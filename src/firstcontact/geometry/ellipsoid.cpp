@@ -25,10 +25,11 @@ constexpr double kPi = std::numbers::pi;
 /// Poles at both ends of z, and rings of `sectors` vertices between them.
 struct Globe {
   std::size_t sectors;
-  std::size_t rings;  // Of faces: one more than there are of vertices.
+  std::size_t rings;  // Rings of faces: one more than rings of vertices.
 };
 
-/// A sphere of radius 1 is inside where the vertices have the length 1 + pi^2 / n^2, roughly.
+/// Chooses the numbers of sectors and rings. A sphere of radius 1 is inside where the vertices have
+/// the length 1 + pi^2 / n^2, roughly.
 Globe globe_of(double relative_error) {
   const auto half = static_cast<std::size_t>(std::ceil(0.5 * kPi / std::sqrt(relative_error)));
   const std::size_t rings = std::max<std::size_t>(3, half);
@@ -68,8 +69,8 @@ Mesh make_globe(const Globe& globe, const Vector3d& radii, double scale) {
   return mesh;
 }
 
-/// Whether the plane of each triangle is proven to pass the ellipsoid, on its outer side: then no
-/// point of the surface is inside.
+/// Whether the plane of each triangle is proven to pass outside the ellipsoid. Then no point of the
+/// surface is inside.
 bool passes_outside(const Mesh& mesh, const Vector3d& radii) {
   const IntervalVector3 axes = enclose(radii);
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
@@ -85,7 +86,7 @@ bool passes_outside(const Mesh& mesh, const Vector3d& radii) {
   });
 }
 
-/// [-]  An estimate of the factor by which the ellipsoid has to shrink until no plane cuts it.
+/// [-]  Estimates the factor by which the ellipsoid has to shrink until no plane cuts it.
 double least_distance(const Mesh& mesh, const Vector3d& radii) {
   double least = 1.0;
   for (const auto& t : mesh.triangles) {
@@ -96,8 +97,8 @@ double least_distance(const Mesh& mesh, const Vector3d& radii) {
   return least;
 }
 
-/// [m]  No vertex, and so no point of a triangle, is farther from the ellipsoid: v / |v_k / r_k| is
-/// a point of it.
+/// [m]  Bounds the distance of a vertex, and so of any point of a triangle, from the ellipsoid: v /
+/// |v_k / r_k| is a point of it.
 double excess_of(const Mesh& mesh, const Vector3d& radii) {
   double most = 0.0;
   for (const Vector3d& v : mesh.vertices) {

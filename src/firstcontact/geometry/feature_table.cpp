@@ -14,7 +14,7 @@ std::uint8_t small(std::size_t number) {
   return static_cast<std::uint8_t>(number);
 }
 
-/// The number of each vertex of the hierarchy: its rank in the mesh among those of triangles.
+/// Numbers the vertices of the hierarchy: by their rank in the mesh among those of triangles.
 std::vector<std::uint8_t> vertex_numbers(const Hierarchy& hierarchy) {
   std::vector<std::uint32_t> sorted = hierarchy.vertex_index;
   std::ranges::sort(sorted);

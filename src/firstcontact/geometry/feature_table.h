@@ -17,13 +17,14 @@ class Shape;
 /// The features of a mesh of few triangles, each once and with a number.
 ///
 /// Vertices come first, then edges, then faces, each in the order of the mesh. Vertices and
-/// triangles are those of the hierarchy. A triangle owns the features that none before it has
-/// (Shape::own_features()).
+/// triangles are those of the hierarchy. A triangle owns the features that no triangle before it
+/// has (Shape::own_features()).
 struct FeatureTable {
   /// The greatest number of triangles of a mesh that has a table.
   static constexpr std::size_t kMostTriangles = 16;
   /// The greatest number of vertices, and of edges; a mesh of degenerate triangles may own as many.
   static constexpr std::size_t kMost = 3 * kMostTriangles;
+  /// The greatest number of features.
   static constexpr std::size_t kMostNumbers = 2 * kMost + kMostTriangles;
 
   /// Corner k of a triangle that owns it.
@@ -38,29 +39,30 @@ struct FeatureTable {
   struct Edge {
     std::uint8_t triangle = 0;
     std::uint8_t k = 0;
-    std::array<std::uint8_t, 2> vertices{};  ///< Where it begins, and ends.
-    std::array<std::uint8_t, 2> ends{};      ///< Their numbers.
-    std::uint8_t number = 0;                 ///< Of one without length that of its vertex.
+    std::array<std::uint8_t, 2> vertices{};  ///< Vertices at which it begins and ends.
+    std::array<std::uint8_t, 2> ends{};      ///< Numbers of these vertices.
+    std::uint8_t number = 0;                 ///< For an edge without length, that of its vertex.
   };
 
+  /// A triangle.
   struct Face {
     std::array<std::uint8_t, 3> vertices{};
     std::uint8_t number = 0;
   };
 
-  std::vector<Corner> corners;  ///< By triangles and k.
-  std::vector<Edge> edges;      ///< By triangles and k.
-  std::vector<Face> faces;      ///< Of each triangle.
+  std::vector<Corner> corners;  ///< Sorted by triangles and k.
+  std::vector<Edge> edges;      ///< Sorted by triangles and k.
+  std::vector<Face> faces;      ///< One for each triangle.
 
   /// The index in the mesh of each vertex, edge and face, by its number.
   std::vector<std::uint32_t> index;
-  std::size_t first_edge = 0;  ///< Number.
-  std::size_t first_face = 0;  ///< Number.
+  std::size_t first_edge = 0;  ///< Number of the first edge.
+  std::size_t first_face = 0;  ///< Number of the first face.
 };
 
 /// Makes the feature table of a shape.
 ///
-/// @param shape  of kMostTriangles at most
+/// @param shape  has at most kMostTriangles triangles
 [[nodiscard]] FIRSTCONTACT_API FeatureTable feature_table(const Shape& shape);
 
 }  // namespace firstcontact

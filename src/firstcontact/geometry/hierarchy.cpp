@@ -28,7 +28,7 @@ struct Item {
 
 struct Box {
   Vector3d centre = Vector3d::Zero();
-  Matrix3d axes = Matrix3d::Identity();  // one per row, right-handed
+  Matrix3d axes = Matrix3d::Identity();  // One per row, right-handed.
   Vector3d extent = Vector3d::Zero();
 
   [[nodiscard]] double half_area() const {
@@ -48,8 +48,8 @@ constexpr std::array<std::array<double, 2>, 5> kTurns{{{0.9659258262890683, 0.25
                                                        {0.5, 0.8660254037844387},
                                                        {0.25881904510252074, 0.9659258262890683}}};
 
-constexpr std::size_t kSampledTriangles = 48;     // decide between candidate frames
-constexpr std::size_t kParallelTriangles = 8192;  // below this a subtree is built by one task
+constexpr std::size_t kSampledTriangles = 48;     // Decide between candidate frames.
+constexpr std::size_t kParallelTriangles = 8192;  // Below this a subtree is built by one task.
 
 bool is_point(const std::array<std::uint32_t, 3>& t) { return t[0] == t[1] && t[1] == t[2]; }
 
@@ -58,7 +58,7 @@ class Builder {
   explicit Builder(const Mesh& mesh, const Hierarchy& hierarchy)
       : mesh_(mesh), centre_(hierarchy.centre), scale_(1.0 / hierarchy.unit) {}
 
-  /// The subtree over the items as its own array, root first; sorts the items in its order.
+  /// Builds the subtree over the items as its own array, root first; sorts the items in its order.
   std::vector<HierarchyNode> build(std::span<Item> items, std::uint32_t first_triangle) const {
     std::vector<HierarchyNode> nodes;
     if (items.size() > kParallelTriangles) {
@@ -196,7 +196,7 @@ class Builder {
     }
   }
 
-  /// Two halves by the median of the triangle centres along the principal axis.
+  /// Splits in two halves by the median of the triangle centres along the principal axis.
   std::pair<std::span<Item>, std::span<Item>> split(std::span<Item> items) const {
     const Vector3d axis = principal_axes(items).row(0).transpose();
     for (Item& item : items) {
@@ -213,7 +213,7 @@ class Builder {
     return {items.subspan(0, middle), items.subspan(middle)};
   }
 
-  /// Rows: unit axes by falling variance of the corners.
+  /// Finds the principal axes, one per row: unit axes by falling variance of the corners.
   Matrix3d principal_axes(std::span<const Item> items) const {
     // Large ranges are sampled: the axes only steer the quality of the boxes.
     const std::size_t stride = std::max<std::size_t>(1, items.size() / 4096);
@@ -234,7 +234,7 @@ class Builder {
     return right_handed(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
   }
 
-  /// Axes from two directions that need not be exactly orthogonal or unit.
+  /// Makes axes from two directions that need not be exactly orthogonal or unit.
   static Matrix3d right_handed(const Vector3d& first, const Vector3d& second) {
     Matrix3d axes = Matrix3d::Identity();
     const Vector3d x = first.normalized();
@@ -275,7 +275,7 @@ class Builder {
     return items.size() == 1 ? fit_triangle(items) : fit_many(items);
   }
 
-  /// The frame of the edge that gives the smallest box.
+  /// Fits a box to one triangle: in the frame of the edge that gives the smallest box.
   Box fit_triangle(std::span<const Item> items) const {
     const auto& t = mesh_.triangles[items.front().triangle];
     const std::array<Vector3d, 3> p{vertex(t[0]), vertex(t[1]), vertex(t[2])};
@@ -296,7 +296,8 @@ class Builder {
     return right_handed(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
   }
 
-  /// The smallest of the principal frame, its turns about the thinnest axis, the body frame.
+  /// Fits a box to many triangles: the smallest of the principal frame, its turns about the
+  /// thinnest axis, and the body frame.
   Box fit_many(std::span<const Item> items) const {
     const Matrix3d principal = principal_axes(items);
     const std::size_t stride = std::max<std::size_t>(1, items.size() / kSampledTriangles);
@@ -317,9 +318,9 @@ class Builder {
     return bounds(items, best, 1);
   }
 
-  /// Takes the smallest rotation of the eight ways to name the axes of a box with the longest
-  /// last. Its angle is at most 99 degrees, so that the scalar part of the quaternion follows
-  /// from the vector part.
+  /// Names the axes of a box, with the longest last, so that its rotation is the smallest of eight.
+  /// Its angle is at most 99 degrees. So the scalar part of the quaternion follows from the vector
+  /// part.
   static Eigen::Quaterniond smallest_rotation(const Box& box) {
     const int longest = box.longest();
     const std::array<int, 2> others{(longest + 1) % 3, (longest + 2) % 3};
@@ -334,7 +335,7 @@ class Builder {
       const std::array<int, 3> r = rows(order);
       const Vector3d diagonal(box.axes(r[0], 0), box.axes(r[1], 1), box.axes(r[2], 2));
       for (int signs = 0; signs < 8; ++signs) {
-        // Right-handed: an even number of signs turns, odd where two rows are exchanged.
+        // Right-handed: the number of negative signs is even, or odd where two rows are exchanged.
         const bool is_right_handed = ((signs ^ signs >> 1 ^ signs >> 2) & 1) == order;
         const double trace = sign(signs, 0) * diagonal[0] +
                              (sign(signs, 1) * diagonal[1] + sign(signs, 2) * diagonal[2]);
@@ -357,7 +358,7 @@ class Builder {
     return q;
   }
 
-  /// Rounds a box outward into its slot: the extents are taken anew for the rounded axes.
+  /// Rounds a box outward into its slot: the extents are computed anew for the rounded axes.
   void store(const Box& box, std::span<const Item> items, int slot, HierarchyNode& node) const {
     const Eigen::Quaterniond q = smallest_rotation(box);
     for (int k = 0; k < 3; ++k) {
@@ -438,7 +439,7 @@ Hierarchy build(const Mesh& mesh) {
   return hierarchy;
 }
 
-/// From more triangles than this on, building waits for memory more than it computes.
+/// Number of triangles from which building waits for memory more than it computes.
 constexpr std::size_t kScatteredTriangles = 100'000;
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace firstcontact {
 /// Four boxes, each around one child: a node, or a single triangle. Two cache lines.
 ///
 /// Box k has the centre c, the axes R(q) with q = (sqrt(1 - |v|^2), v) exactly, and the half
-/// extents h, the longest last; it contains its triangles exactly, all roundings outward.
+/// extents h, the longest last. It contains its triangles exactly, all roundings outward.
 /// Coordinates are relative to Hierarchy::centre, in units of Hierarchy::unit.
 struct alignas(64) HierarchyNode {
   static constexpr int kWidth = 4;
@@ -27,9 +27,10 @@ struct alignas(64) HierarchyNode {
   static constexpr int kExtentShift = 13;
   static constexpr std::uint32_t kExtentOrigin = 65u << 23;
 
-  float centre[3][kWidth];           ///< [unit]
-  float rotation[3][kWidth];         ///< [-]  Vector part v of the unit quaternion, |v|^2 <= 0.58.
-  std::uint16_t extent[3][kWidth];   ///< [unit]  Rounded up; see half_extent().
+  float centre[3][kWidth];    ///< [unit]  Centres.
+  float rotation[3][kWidth];  ///< [-]  Vector part v of the unit quaternion, |v|^2 <= 0.58.
+  /// [unit]  Codes of half extents, rounded up; see half_extent().
+  std::uint16_t extent[3][kWidth];
   std::uint32_t node_base_and_used;  ///< Index of the first child node << 4 | mask of used slots.
   std::uint32_t triangle_base_and_leaf;  ///< First child triangle << 4 | mask of triangle slots.
 
@@ -52,8 +53,8 @@ struct alignas(64) HierarchyNode {
   }
 
  private:
-  /// How many slots of a mask come before one. The number of bits of each k < 16, which not every
-  /// processor counts, is digit k of a constant.
+  /// Counts the slots of a mask before a given one. Not every processor can count bits, so the
+  /// number of bits of each k < 16 is digit k of a constant.
   static std::uint32_t rank(unsigned mask, int slot) {
     constexpr std::uint64_t kBits = 0x4332322132212110u;
     return static_cast<std::uint32_t>(kBits >> (4 * (mask & ((1u << slot) - 1u)))) & 15u;
@@ -63,24 +64,24 @@ static_assert(sizeof(HierarchyNode) == 128);
 
 /// The hierarchy, with the mesh's vertices and triangles in its own order for locality.
 struct Hierarchy {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the body frame.
-  double radius = 0.0;                    ///< [m]  Every vertex is always within it of the centre.
-  double unit = 1.0;                      ///< [m]  A power of two, at least the radius.
-  std::vector<HierarchyNode> nodes;       ///< The root is the first.
-  std::vector<Eigen::Vector3d> vertices;  ///< [m]  Relative to the centre, rounded.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  Centre, in the body frame.
+  double radius = 0.0;  ///< [m]  Bound of every vertex's distance from the centre, at all times.
+  double unit = 1.0;    ///< [m]  A power of two, at least the radius.
+  std::vector<HierarchyNode> nodes;                     ///< The root is the first.
+  std::vector<Eigen::Vector3d> vertices;                ///< [m]  Relative to the centre, rounded.
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into vertices.
   std::vector<std::uint32_t> vertex_index;              ///< Index in the mesh of each vertex.
   std::vector<std::uint32_t> triangle_index;            ///< Index in the mesh of each triangle.
 
-  /// The boxes (same links, same axes) of a body that deforms at t = 1; empty where the body is
-  /// rigid.
+  /// The boxes at t = 1 of a body that deforms, with the same links and axes; empty where the body
+  /// is rigid.
   ///
-  /// These boxes and `vertices_to` are relative to the centre there. In between, centres, extents
-  /// and vertices change linearly.
+  /// These boxes and `vertices_to` are relative to the centre at t = 1. In between, centres,
+  /// extents and vertices change linearly.
   std::vector<HierarchyNode> nodes_to;
-  std::vector<Eigen::Vector3d> vertices_to;  ///< [m]
-  double deformation_speed = 0.0;  ///< [m per step]  No vertex is faster than this, as seen from
-                                   ///< the centre.
+  std::vector<Eigen::Vector3d> vertices_to;  ///< [m]  Places of the vertices at t = 1.
+  /// [m per step]  Bound of every vertex's speed relative to the centre.
+  double deformation_speed = 0.0;
 
   [[nodiscard]] bool deforms() const { return !vertices_to.empty(); }
 
@@ -91,27 +92,29 @@ struct Hierarchy {
                      : vertices[index];
   }
 
-  /// The boxes of a node at t; they are put into `scratch` where they change.
+  /// Computes the boxes of a node at t; where they change, `scratch` holds them.
   ///
-  /// An interpolated box holds its triangles: along an axis of the box, a vertex is no farther from
-  /// the interpolated centre than the interpolation of its distances at both ends.
+  /// An interpolated box contains its triangles. Derivation: take the distances of a vertex from
+  /// the centre along an axis of the box, at both ends. Their interpolation bounds the distance
+  /// from the interpolated centre.
   FIRSTCONTACT_API const HierarchyNode& node(std::uint32_t index, double t,
                                              HierarchyNode& scratch) const;
 };
 
 /// Builds the hierarchy top-down, on all cores for large meshes; the same on every run.
 ///
-/// Boxes follow the principal axes of their vertices, improved over a few candidates (S.
-/// Gottschalk, M. C. Lin, D. Manocha, "OBBTree", SIGGRAPH 1996, fit the convex hull instead).
+/// Boxes follow the principal axes of their vertices, and are improved over a few candidates. S.
+/// Gottschalk, M. C. Lin, D. Manocha, "OBBTree", SIGGRAPH 1996, fit the convex hull instead.
 ///
 /// @param mesh  not empty, finite, indices in range, below 2^28 triangles
 FIRSTCONTACT_API Hierarchy build_hierarchy(const Mesh& mesh);
 
-/// The hierarchy of the same triangles while their vertices move to other places, each on a line.
+/// Makes the hierarchy of the same triangles while their vertices move to other places, each on a
+/// line.
 ///
-/// @param rest  of a body that does not deform
+/// @param rest  the hierarchy of a body that does not deform
 /// @param to    [m]  for each of its vertices, in its order, the place at t = 1 relative to the
-///              centre there
+///         centre at t = 1
 FIRSTCONTACT_API Hierarchy deforming_hierarchy(const Hierarchy& rest,
                                                std::vector<Eigen::Vector3d> to);
 

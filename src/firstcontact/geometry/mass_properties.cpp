@@ -29,7 +29,7 @@ using Triangle = std::array<std::uint32_t, 3>;
                               "give mass, centre_of_mass and inertia");
 }
 
-/// Edges that triangles do not run as often one way as the other.
+/// Counts the edges that triangles do not run as often one way as the other.
 std::size_t unbalanced_edges(const Mesh& mesh) {
   std::vector<std::pair<std::uint64_t, int>> runs;
   runs.reserve(3 * mesh.triangles.size());
@@ -53,7 +53,7 @@ std::size_t unbalanced_edges(const Mesh& mesh) {
   return count;
 }
 
-/// The places that triangles use, each once.
+/// Finds the places that triangles use, each once.
 std::vector<Vector3d> used_places(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
   std::vector<Vector3d> places;
@@ -81,22 +81,22 @@ MassProperties of_capsule(const Vector3d& begin, const Vector3d& end, double r) 
           across * Matrix3d::Identity() + (along - across) * u * u.transpose()};
 }
 
-/// The tetrahedra from a point to the triangles: sums of six times their signed volume, and bounds
-/// on the rounding of these.
+/// The tetrahedra from a point to the triangles: the sum of six times their signed volume, and a
+/// bound of its rounding.
 struct SixVolumes {
   double sum = 0.0;
   double error = 0.0;
 };
 
-/// The corners of a triangle from the origin plus the offset, subtracted one after the other: far
-/// away their sum would be rounded.
+/// Computes the corners of a triangle from the origin plus the offset. They are subtracted one
+/// after the other: far away their sum would be rounded.
 std::array<Vector3d, 3> corners(const Mesh& mesh, const Triangle& t, const Vector3d& origin,
                                 const Vector3d& offset = Vector3d::Zero()) {
   return {mesh.vertices[t[0]] - origin - offset, mesh.vertices[t[1]] - origin - offset,
           mesh.vertices[t[2]] - origin - offset};
 }
 
-/// The volume of each component of the mesh, at the number of its least vertex.
+/// Computes the volume of each component of the mesh, at the number of its least vertex.
 std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& origin,
                                           DisjointSets& components) {
   std::vector<SixVolumes> volumes(mesh.vertices.size());
@@ -106,7 +106,7 @@ std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& orig
     volume.sum += a.dot(b.cross(c));
     volume.error += a.norm() * b.norm() * c.norm();
   }
-  // A product and its term of the sum are rounded at most so often.
+  // A bound of the number of roundings of a product and its term of the sum.
   const double roundings = static_cast<double>(mesh.triangles.size()) + 16.0;
   for (SixVolumes& volume : volumes) {
     volume.error *= roundings * 0x1p-52;
@@ -114,8 +114,9 @@ std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& orig
   return volumes;
 }
 
-/// How often other components wind around a vertex, by their solid angles (A. Van Oosterom,
-/// J. Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30, 1983).
+/// Computes the winding number of the other components around a vertex, by their solid angles (A.
+/// Van Oosterom, J. Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30,
+/// 1983).
 double winding_of_others(const Mesh& mesh, std::uint32_t vertex, DisjointSets& components) {
   double half_angle = 0.0;
   for (const Triangle& t : mesh.triangles) {
@@ -130,7 +131,7 @@ double winding_of_others(const Mesh& mesh, std::uint32_t vertex, DisjointSets& c
   return half_angle / (2.0 * std::numbers::pi);
 }
 
-/// +1 where the triangles face outwards, -1 where they face inwards.
+/// Finds +1 where the triangles face outwards, -1 where they face inwards.
 double facing(const Mesh& mesh, const Vector3d& origin) {
   DisjointSets components = detail::vertex_components(mesh);
   const std::vector<SixVolumes> volumes = component_volumes(mesh, origin, components);
@@ -154,8 +155,9 @@ double facing(const Mesh& mesh, const Vector3d& origin) {
   return sign;
 }
 
-/// The integrals of 1 and x, and of x x^T, over tetrahedra of a common corner at the origin:
-/// d/6, d/24 (a + b + c) and d/120 (aa^T + bb^T + cc^T + ss^T) with d = a . (b x c), s = a + b + c.
+/// Computes the integrals of 1 and x, and of x x^T, over tetrahedra with a common corner at the
+/// origin. They are d/6, d/24 (a + b + c) and d/120 (aa^T + bb^T + cc^T + ss^T) with d = a . (b x
+/// c), s = a + b + c.
 MassProperties of_polyhedron(const Mesh& mesh, const Vector3d& origin, double sign) {
   double six_volume = 0.0;
   Vector3d first = Vector3d::Zero();
@@ -166,7 +168,7 @@ MassProperties of_polyhedron(const Mesh& mesh, const Vector3d& origin, double si
     first += d * (a + b + c);
   }
   const Vector3d p_OC = first / (4.0 * six_volume);
-  // Again from the centre of mass: nothing has to be subtracted from these.
+  // Repeated from the centre of mass, so that no large terms are subtracted.
   Matrix3d second = Matrix3d::Zero();
   for (const Triangle& t : mesh.triangles) {
     const auto [a, b, c] = corners(mesh, t, origin, p_OC);

@@ -44,8 +44,8 @@ bool is_degenerate(const Mesh& mesh, const Triangle& t) {
   return !(0.5 * a.cross(b).norm() > 1e-12 * longest);
 }
 
-/// Runs of edges through triangles, bucketed by the smaller vertex; each entry is the larger
-/// vertex times two, plus one where the triangle runs towards the smaller.
+/// Runs of edges through triangles, sorted into buckets by the smaller vertex. Each entry is the
+/// larger vertex times two, plus one where the triangle runs towards the smaller.
 struct EdgeRuns {
   std::vector<std::size_t> first;
   std::vector<std::uint64_t> runs;

@@ -38,8 +38,9 @@ void add_ring(const detail::EnclosingRing& ring, double z, Mesh& mesh) {
   }
 }
 
-/// Triangles from each edge of the n vertices that begin at `first` to the tip; seen from the side
-/// that the tip faces for `up`, the ring turns to the left.
+/// Adds triangles from each edge of the n vertices that begin at `first` to the tip.
+///
+/// @param up  whether the ring turns to the left, seen from the side that the tip faces
 void add_fan(std::size_t first, std::size_t n, std::size_t tip, bool up, Mesh& mesh) {
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t a = number(first + k);

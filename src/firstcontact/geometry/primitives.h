@@ -80,8 +80,8 @@ inline constexpr double kFlattestEllipsoid = 1e-30;
 /// Makes an ellipsoid along the axes, centred at the origin. As for make_cylinder(), queries take
 /// it exactly.
 ///
-/// Its triangles are a polyhedron of n sectors around z and m rings: faces 0 to n - 1 at the
-/// bottom, 2n for each ring between, n at the top.
+/// Its triangles are a polyhedron of n sectors around z and m rings. Faces 0 to n - 1 are at the
+/// bottom, 2n in each ring between, n at the top.
 ///
 /// @param radii            [m]  half of the length along each axis; > 0, the least at least 1e-30
 /// of the greatest

@@ -16,36 +16,36 @@ using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Fewer triangles are soon tested one by one.
+/// [triangles]  Fewer are tested one by one in less time.
 constexpr std::size_t kFewTriangles = 500;
 
-/// The bounds of more than a million would take more memory and time than they save.
+/// [triangles]  The bounds of more would take more memory and time than they save.
 constexpr std::size_t kManyTriangles = std::size_t{1} << 20;
 
-/// The number of triangles that are looked at, evenly among more.
+/// [triangles]  The number that is sampled, evenly among more.
 constexpr std::size_t kLookedAt = 12'000;
 
-/// [m]  Bounds are in single precision, with squares of lengths.
+/// [m]  Limits of lengths: bounds are in single precision, with squares of lengths.
 constexpr double kSmallest = 1e-12;
 constexpr double kLargest = 1e12;
 
-/// [-]  Sines of the angles between the surface and the way of its points, of facets that slip: as
-/// weights know them at first and at last.
+/// [-]  Scale of the weights at first and at last: sines of angles between the surface and the
+/// paths of its points.
 constexpr double kCoarse = 0.5;
 constexpr double kFine = 0.03;
 constexpr int kRounds = 12;
 
-/// The least share of the triangles that must slip.
+/// The least fraction of the triangles that must slip.
 constexpr double kSlipping = 0.5;
-/// A second motion slips as well where its residual is below this share of the greatest.
+/// A second motion slips as well where its residual is below this fraction of the greatest.
 constexpr double kUnique = 3e-3;
 
-/// A triangle, seen from the centre in units of the radius.
+/// A triangle, relative to the centre, in units of the radius.
 struct Facet {
   Vector3d centre;
   Vector3d normal;
   double area;
-  double weight;  // Of slivers less than of others, which count alike.
+  double weight;  // Less for slivers; 1 for the rest.
 };
 
 void weigh(std::vector<Facet>& facets) {
@@ -61,10 +61,10 @@ void weigh(std::vector<Facet>& facets) {
   }
 }
 
-/// The facets of some triangles, from all over the surface.
+/// Samples the facets of some triangles, from all over the surface.
 std::vector<Facet> facets_of(const Hierarchy& hierarchy) {
   std::vector<Facet> facets;
-  // Odd, as neighbours lie as two and two.
+  // An odd stride, as neighbours lie in twos.
   const std::size_t stride = (hierarchy.triangles.size() / kLookedAt) | 1u;
   for (std::size_t k = 0; k < hierarchy.triangles.size(); k += stride) {
     const auto& t = hierarchy.triangles[k];
@@ -89,7 +89,7 @@ struct Slip {
   Vector3d v;
   bool is_unique;
 
-  /// [-]  The sine of the angle between the facet and its way.
+  /// [-]  The sine of the angle between the facet and the velocity of its centre.
   [[nodiscard]] double residual(const Facet& facet) const {
     const Vector3d way = v + w.cross(facet.centre);
     return std::abs(facet.normal.dot(way)) / (way.norm() + 1e-3);
@@ -109,7 +109,7 @@ Slip least_slip(const std::vector<Facet>& facets, const std::vector<double>& wei
   return {slip.head<3>(), slip.tail<3>(), values[1] > kUnique * values[5]};
 }
 
-/// The slip of most facets.
+/// Finds the slip of most facets.
 Slip find_slip(const std::vector<Facet>& facets) {
   std::vector<double> weights(facets.size(), 1.0);
   for (std::size_t k = 0; k < facets.size(); ++k) {
@@ -135,8 +135,8 @@ std::vector<Facet> slipping(const std::vector<Facet>& facets, const Slip& slip) 
   return some;
 }
 
-/// Distance from the axis, and the normal in the plane of r and h: f(r, h) is constant on a
-/// surface whose normal is the gradient f_r r + f_h (z - pitch / r theta).
+/// The distance of a facet from the axis, and its normal in the plane of r and h. There f(r, h) is
+/// constant on a surface whose normal is the gradient f_r r + f_h (z - pitch / r theta).
 struct ProfilePoint {
   double radius;
   Vector2d normal;
@@ -158,7 +158,7 @@ std::vector<ProfilePoint> profile_of(const std::vector<Facet>& facets,
   return profile;
 }
 
-/// The most frequent normals, a few degrees apart at least.
+/// Chooses the most frequent normals, a few degrees apart at least.
 void choose_directions(const std::vector<ProfilePoint>& profile, ScrewSliding& screw_sliding) {
   constexpr int kBins = 180;
   constexpr int kApart = 4;
@@ -174,7 +174,7 @@ void choose_directions(const std::vector<ProfilePoint>& profile, ScrewSliding& s
     sum[bin] += (along < 0.0 ? -point.weight : point.weight) * point.normal;
   }
   for (int apart = -kApart; apart <= kApart; ++apart) {
-    weight[(apart + kBins) % kBins] = 0.0;  // Along r.
+    weight[(apart + kBins) % kBins] = 0.0;  // The direction along r.
   }
   screw_sliding.directions[ScrewSliding::kRadius] = Vector2d::UnitX();
   screw_sliding.directions[ScrewSliding::kHeight] = Vector2d::UnitY();
@@ -203,7 +203,7 @@ std::optional<ScrewSliding> find_screw_sliding(const Hierarchy& hierarchy) {
   const Slip slip = find_slip(facets);
   const std::vector<Facet> inner = slipping(facets, slip);
   const double rate = slip.w.norm();
-  // Motions that turn by less than about their way are rather translations.
+  // Motions that turn less than they move are rather translations.
   if (!slip.is_unique || !(rate > 0.5) ||
       static_cast<double>(inner.size()) < kSlipping * static_cast<double>(facets.size())) {
     return std::nullopt;

@@ -21,9 +21,9 @@ constexpr std::size_t kNumbers = ScrewSlidingNode::kNumbers;
 constexpr std::size_t kHalf = kNumbers / 2;
 constexpr float kUnbounded = 1e30f;
 constexpr float kNarrow = 0.1f;    // [rad]
-constexpr float kHalfTurn = 3.0f;  // [rad]  Nearly.
+constexpr float kHalfTurn = 3.0f;  // [rad]  Almost half a turn.
 constexpr float kWidest = 2.5f;    // [rad]
-constexpr float kMostBend = 1e6f;  // [rad]  Far beyond a turn.
+constexpr float kMostBend = 1e6f;  // [rad]  Greater than any turn.
 constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
 
 using DF = hn::CappedTag<float, kNumbers>;
@@ -31,7 +31,7 @@ using VF = hn::Vec<DF>;
 constexpr std::size_t kLanes = hn::MaxLanes(DF());
 constexpr std::size_t kParts = kNumbers / kLanes;
 
-/// The numbers of one box.
+/// The numbers of one part.
 struct Numbers {
   VF part[kParts];
 };
@@ -74,13 +74,13 @@ HWY_INLINE Numbers all(float value) {
   return numbers;
 }
 
-/// The greatest numbers of the parts of a node.
+/// Finds the greatest numbers of the parts of a node.
 HWY_INLINE Numbers greatest_of(const ScrewSlidingNode& node) {
   return greater(greater(load(node.most[0]), load(node.most[1])),
                  greater(load(node.most[2]), load(node.most[3])));
 }
 
-/// The angle of a point about the axis.
+/// Computes the angle of a point about the axis.
 template <class D>
 HWY_INLINE hn::Vec<D> angle_of(D d, hn::Vec<D> x, hn::Vec<D> y) {
   const auto ax = hn::Abs(x);
@@ -131,7 +131,7 @@ HWY_INLINE void place_vertices(const std::vector<Eigen::Vector3d>& vertices,
   }
 }
 
-/// What a radius, a height, an angle and the bends of a triangle add to its numbers.
+/// The factors of a radius, a height, an angle and the bends of a triangle in its numbers.
 struct Factors {
   Numbers radius;
   Numbers height;
@@ -240,7 +240,7 @@ class Bounder {
     return with_bend(add_scaled(corners, factors_.sagitta, sagitta), values, sagitta);
   }
 
-  /// Corners' radii are seen along the middle direction one by one.
+  /// Bounds a wide triangle: the radius of each corner is projected on the middle direction.
   ///
   /// @param across_cut  whether the triangle lies where the angle jumps, or around the axis
   [[nodiscard]] HWY_INLINE Numbers of_wide(const std::array<std::uint32_t, 3>& t,
@@ -269,13 +269,15 @@ class Bounder {
     return with_bend(bent, values, -values[first_] - least);
   }
 
-  /// The angle between corners, and more.
+  /// The angle between corners, with its rounding.
   [[nodiscard]] static HWY_INLINE float span(const float* values) {
     return values[kHalf - 1] + values[kNumbers - 1] + 0x1p-18f;
   }
 
+  /// Adds the bend of a triangle to the numbers of its corners.
+  ///
   /// @param values  of the corners
-  /// @param dip     [m]  how much nearer to the axis the triangle may come than they
+  /// @param dip     [m]  how much nearer to the axis than the corners the triangle may come
   [[nodiscard]] HWY_INLINE Numbers with_bend(const Numbers& corners, const float* values,
                                              float dip) const {
     const float most = values[greatest_];
@@ -287,13 +289,13 @@ class Bounder {
     const float along = most - least;
     const float circle = 0.25f * (across * across + along * along);  // Its radius squared.
     const float bend = (0.5f + 0x1p-18f) * circle / (least * least);
-    if (!(bend < kMostBend)) {  // Where that is too small to be squared, too.
+    if (!(bend < kMostBend)) {  // False, too, where `least` is too small to be squared.
       return near_axis(values);
     }
     return add_scaled(add_scaled(corners, factors_.bend, bend), factors_.slack, 1.0f);
   }
 
-  /// Height and greatest radius hold everywhere.
+  /// Bounds a triangle near the axis: by its height and greatest radius only.
   [[nodiscard]] HWY_INLINE Numbers near_axis(const float* values) const {
     alignas(64) float most[kNumbers];
     store(all(kUnbounded), most);
@@ -308,7 +310,7 @@ class Bounder {
   ScrewSlidingBounds& bounds_;
   Factors factors_;
   float least_radius_;
-  std::size_t first_;  // Where the least values begin; the first direction is the radius.
+  std::size_t first_;  // Index of the least values; the first direction is the radius.
   std::size_t greatest_;
 };
 
@@ -324,7 +326,7 @@ void BoundScrewSliding(const ScrewSliding& screw_sliding, const Hierarchy& hiera
   bounder.bound_nodes(order);
 }
 
-/// Whether no sum is below its limit, once `turns` is added. A number that is none is not below.
+/// Whether no sum is below its limit, once `turns` is added. A NaN is not below.
 HWY_INLINE bool none_below(const Numbers& a, const Numbers& b, const Numbers& turns,
                            const Numbers& least) {
   const DF d;
@@ -348,7 +350,8 @@ HWY_INLINE unsigned near_after_turns(const ScrewSlidingNode& a, const ScrewSlidi
   return lanes;
 }
 
-/// Angles begin anew somewhere: parts on both sides of it are seen once around either way.
+/// Finds near parts. Angles jump somewhere: parts on both sides of the jump are tested with one
+/// turn more and one turn less as well.
 unsigned NearByScrewSliding(const ScrewSlidingNode& a, const ScrewSlidingNode& mirrored,
                             const ScrewSlidingLimits& limits) {
   const Numbers least = load(limits.least.data());

@@ -18,10 +18,10 @@
 
 namespace firstcontact {
 
-/// Bounds of four parts of a surface, as numbers that are bounds from above.
+/// Bounds of four parts of a surface, all as upper bounds.
 ///
-/// For each part they are the least and the greatest values of f = alpha r + beta h [m] along the
-/// directions (alpha, beta) of the ScrewSliding, and of the angle [rad], in this order:
+/// For each part they bound two quantities from both sides: f = alpha r + beta h [m] along the
+/// directions (alpha, beta) of the ScrewSliding, and the angle [rad]. The order is:
 ///   -least f of each direction, -least angle, greatest f of each direction, greatest angle.
 /// For a mirrored body, the halves are exchanged.
 struct alignas(64) ScrewSlidingNode {
@@ -30,29 +30,30 @@ struct alignas(64) ScrewSlidingNode {
   float most[kParts][kNumbers];
 };
 
-/// The numbers of a vertex, as those of a part.
+/// The bounds of a vertex, in the same order.
 struct alignas(64) ScrewSlidingVertex {
   float most[ScrewSlidingNode::kNumbers];
 };
 
-/// A rigid body in the axes of the screw S of a `ScrewSliding`, by which its motion is taken back.
+/// A rigid body in the axes of the screw S of a `ScrewSliding`, less the motion along the screw.
 ///
-/// From one pose to the other its points stay within `stray` of lines that they follow in any way.
+/// Between the two poses its points stay within `stray` of lines. They may move along the lines at
+/// any rates.
 struct ScrewSlidingPath {
   std::array<Eigen::Matrix3d, 2> R_SB;
-  std::array<Eigen::Vector3d, 2> p_SB;  ///< [m]  Of Hierarchy::centre.
-  double stray = 0.0;                   ///< [m]
+  std::array<Eigen::Vector3d, 2> p_SB;  ///< [m]  The place of Hierarchy::centre.
+  double stray = 0.0;                   ///< [m]  Bound of a point's distance from its line.
 };
 
 /// Bounds of the triangles in an order of their own, as a tree with four children to a node.
 ///
-/// Four triangles belong to a node, four such nodes to the next one, and so on: part k of node n of
+/// Four triangles belong to a node, four such nodes to the next one, and so on. Part k of node n of
 /// a level is node 4 n + k of the level below it, or triangle 4 n + k. There are always as many
 /// levels as the largest mesh needs.
 struct ScrewSlidingBounds {
   static constexpr std::size_t kLevels = 14;
   std::array<std::vector<ScrewSlidingNode>, kLevels> levels = {};
-  double error = 0.0;  ///< [m]  Of sums of two bounds, which is not in them.
+  double error = 0.0;  ///< [m]  Error of sums of two bounds; the bounds do not contain it.
 
   /// The radius, angle and height of vertices, at both poses.
   std::array<std::vector<float>, 2> radius = {};
@@ -71,7 +72,7 @@ struct ScrewSlidingBounds {
 
 /// Bounds a shape that does not deform.
 ///
-/// Derivation: at one time a triangle is the convex hull of its corners, and all of it stays within
+/// Derivation: at one time a triangle is the convex hull of its corners. All of it stays within
 /// `stray` of the convex hull of the corners at both poses. For x = sum l_i y_i in that hull,
 /// - z is linear, and r convex: r(x) <= sum l_i r_i;
 /// - with g the direction of the middle of the angles, which span 2 D,
@@ -79,13 +80,13 @@ struct ScrewSlidingBounds {
 /// - along a line the angle's second derivative is -2 e_r e_a / r^2, at most 1 / r^2 in size, so
 ///   |angle(x) - sum l_i angle_i| <= sum l_i |y_i - x|^2 / (2 r^2) <= R^2 / (2 r^2), lengths taken
 ///   across the axis and R that of any circle around the y_i.
-/// f changes by at most L = sqrt(alpha^2 + beta^2 (1 + pitch^2 / r^2)) times `stray`. What comes
-/// nearer to the axis than twice ScrewSliding::least_radius, or lies around it, is only bounded in
-/// r and z; its other numbers are huge.
 ///
-/// Single precision: angles are within 2^-20, places within 2^-23 of size; `error` and what is
-/// added to each bound cover that by far.
+/// f changes by at most L = sqrt(alpha^2 + beta^2 (1 + pitch^2 / r^2)) times `stray`. A triangle
+/// that comes nearer to the axis than twice ScrewSliding::least_radius, or lies around it, is only
+/// bounded in r and z. Its other numbers are huge.
 ///
+/// Single precision: angles are within 2^-20, places within 2^-23 of size. `error` and the terms
+/// added to each bound are larger than that.
 /// @param order  the triangles in sequence, so that neighbours are near in r, h and angle
 /// @param path   the two motions; their poses coincide at one time
 FIRSTCONTACT_API void bound_screw_sliding(const ScrewSliding& screw_sliding,
@@ -97,23 +98,25 @@ FIRSTCONTACT_API void bound_screw_sliding(const ScrewSliding& screw_sliding,
 /// A surface that slides in itself along a screw, at rest in the axes of that screw.
 struct ScrewSlidingSurface {
   ScrewSliding screw_sliding;
-  std::vector<std::uint32_t> order;  ///< Of the triangles, along the thread.
+  std::vector<std::uint32_t> order;  ///< Order of the triangles, along the screw thread.
   ScrewSlidingBounds bounds;
 };
 
-/// The limits of two parts that are near each other: no sum of their numbers is below these.
+/// The limits of two near parts: no sum of their numbers is below these.
 struct ScrewSlidingLimits {
   alignas(64) std::array<float, ScrewSlidingNode::kNumbers> least;
+  /// The amounts that one more turn around the axis adds.
   alignas(64)
       std::array<float, ScrewSlidingNode::kNumbers> turn;  ///< Once more around the axis adds it.
 };
 
-/// The lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each other.
+/// Finds the lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each
+/// other.
 [[nodiscard]] FIRSTCONTACT_API unsigned near_by_screw_sliding(const ScrewSlidingNode& a,
                                                               const ScrewSlidingNode& mirrored,
                                                               const ScrewSlidingLimits& limits);
 
-/// [-]  A bound of the slope of f along the direction, where bounds hold.
+/// [-]  Bounds the slope of f along the direction, where bounds hold.
 [[nodiscard]] FIRSTCONTACT_API double slope_of(const ScrewSliding& screw_sliding,
                                                std::size_t direction);
 

@@ -17,19 +17,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Triangles that lie on one straight part of the profile, on all turns of the thread: the
-/// direction across it, and where it is along that.
+/// A strip: triangles on one straight part of the profile, on all turns of the screw thread. It has
+/// the index of the direction across, and the place along that direction.
 using Strip = std::array<int, 2>;
 
-/// Tells strips apart. A sliver lies on several: it goes with the one that has most.
-/// [m]  How far a turn leads along the axis; 0 of a surface of revolution, whatever rounding made
-/// of its pitch.
+/// [m]  Computes the lead of a turn along the axis; 0 for a surface of revolution, whose pitch is
+/// rounding only.
 double lead_of(const ScrewSliding& screw_sliding, double radius) {
   constexpr double kRounding = 1e-6;
   const double lead = 2.0 * std::numbers::pi * std::abs(screw_sliding.pitch);
   return lead > kRounding * radius ? lead : 0.0;
 }
 
+/// Finds the strips of triangles. A sliver lies on several; it goes with the one that has most.
 class StripFinder {
  public:
   StripFinder(const ScrewSliding& screw_sliding, const Hierarchy& hierarchy)
@@ -70,14 +70,15 @@ class StripFinder {
     return best;
   }
 
-  /// Whether it comes near the axis or spans much of a turn: bounds of others would be lost in its.
+  /// Whether a triangle comes near the axis or spans much of a turn. Its bounds would hide those of
+  /// others.
   [[nodiscard]] bool is_wide(std::size_t triangle) const {
     const auto [a, b, c] = corners_[triangle];
     return !(std::min({a.x(), b.x(), c.x()}) > 2.05 * screw_sliding_.least_radius &&
              std::max({a.z(), b.z(), c.z()}) - std::min({a.z(), b.z(), c.z()}) < 0.5);
   }
 
-  /// Which turn of the strip.
+  /// Finds the turn of the strip on which a triangle lies.
   [[nodiscard]] double turn(std::size_t triangle, const Strip& strip) const {
     const auto found = shares_.find(strip);
     const double mean = found == shares_.end() ? 0.0 : std::arg(found->second.phase);
@@ -89,9 +90,9 @@ class StripFinder {
  private:
   static constexpr double kStripOfLead = 0.05;
   static constexpr double kStripOfRadius = 0.004;
-  static constexpr double kThin = 0.3;  // Of a strip's width.
+  static constexpr double kThin = 0.3;  // Fraction of a strip's width.
 
-  /// Corners in r, h and the angle.
+  /// The corners of a triangle in r, h and the angle.
   using Corners = std::array<Vector3d, 3>;
 
   [[nodiscard]] Corners corners_of(const std::array<std::uint32_t, 3>& t,
@@ -100,7 +101,7 @@ class StripFinder {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3d p = screw_sliding_.R_SB * (hierarchy.vertices[t[k]] - screw_sliding_.p_BS);
       double angle = std::atan2(p.y(), p.x());
-      if (k > 0) {  // Beside the first one, where angles begin anew.
+      if (k > 0) {  // Near the first one, where angles jump.
         angle += 2.0 * std::numbers::pi *
                  std::round((corners[0].z() - angle) / (2.0 * std::numbers::pi));
       }
@@ -126,7 +127,7 @@ class StripFinder {
             static_cast<int>(std::clamp(std::round(place), -1e9, 1e9))};
   }
 
-  /// [rad]  Of the height, one turn of the thread being a circle.
+  /// [rad]  The phase of the height: one turn of the screw thread is a circle.
   [[nodiscard]] double phase(std::size_t triangle) const {
     const Corners& c = corners_[triangle];
     return lead_ > 0.0 ? 2.0 * std::numbers::pi * (c[0].y() + c[1].y() + c[2].y()) / (3.0 * lead_)
@@ -165,7 +166,7 @@ std::vector<std::uint32_t> order_along(const ScrewSliding& screw_sliding,
   for (auto begin = places.begin(); begin != places.end();) {
     const auto end =
         std::find_if_not(begin, places.end(), [&](const auto& x) { return same_turn(x, *begin); });
-    // Nodes should not hold the end of one turn and the begin of another, far from it.
+    // Nodes should not hold the end of one turn and the begin of another, far from each other.
     const auto count = static_cast<std::size_t>(end - begin);
     const std::size_t block = count >= 64 ? 64 : count >= 16 ? 16 : 4;
     order.resize((order.size() + block - 1) / block * block, kNoTriangle);

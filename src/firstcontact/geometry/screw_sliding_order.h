@@ -14,8 +14,8 @@ namespace firstcontact {
 
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-/// The triangles by the part of the profile that they belong to, then along the thread; kNoTriangle
-/// fills gaps.
+/// Sorts the triangles by their part of the profile, then along the screw thread; kNoTriangle fills
+/// gaps.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::uint32_t> order_along(
     const ScrewSliding& screw_sliding, const Hierarchy& hierarchy);
 

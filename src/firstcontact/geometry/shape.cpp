@@ -68,7 +68,7 @@ void require_solid(const Mesh& mesh) {
   }
 }
 
-/// Unique edges, bucketed by their smaller vertex: those of vertex v are the numbers from
+/// Unique edges, in buckets by their smaller vertex. Those of vertex v are the numbers from
 /// first[v] to first[v + 1], with their larger vertices in rising order.
 struct EdgeTable {
   std::vector<std::uint32_t> first;
@@ -158,7 +158,7 @@ std::vector<std::uint32_t> list_components(const Mesh& mesh, const Hierarchy& hi
 
 namespace {
 
-/// Not every shape is asked for its bounds.
+/// Finds the own features of a shape; they are computed when first needed.
 std::vector<std::uint8_t> find_own_features(const Shape& shape) {
   const Mesh& mesh = shape.mesh();
   std::vector<bool> has_vertex(mesh.vertices.size(), false);
@@ -240,14 +240,15 @@ struct Shape::Data {
   double enclosure_error = 0.0;
   EdgeTable edges;
   Hierarchy hierarchy;
-  std::vector<Eigen::Vector3d> to;  // Empty: it does not deform.
+  std::vector<Eigen::Vector3d> to;  // Empty where it does not deform.
   Eigen::Vector3d translation_to = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
   std::shared_ptr<LazyScrewSliding> screw_sliding = std::make_shared<LazyScrewSliding>();
-  std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();  // At all times.
-  std::shared_ptr<ExactSet> exact;  // Null: none is known.
+  // The same at all times.
+  std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();
+  std::shared_ptr<ExactSet> exact;  // Null where none is known.
 };
 
 Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) {
@@ -359,7 +360,8 @@ ConvexCore Shape::convex_core() const {
     core.points = hierarchy.vertices;
     core.reach = hierarchy.radius;
   }
-  // The triangles enclose the set. Bounds of motions are made for their radius, and a hair more.
+  // The triangles enclose the set. Bounds of motions are made for their radius, with a small
+  // excess.
   core.reach = std::min(core.reach, hierarchy.radius * (1.0 + 0x1p-46));
   return core;
 }

@@ -19,18 +19,18 @@ using Eigen::Vector3d;
 constexpr double kUp = 1.0 + 0x1p-44;
 constexpr double kRounding = 0x1p-46;
 
-/// Hulls of more vertices cost more to find, and to look through, than they spare.
+/// Hulls of more vertices take more time to find and to visit than they save.
 constexpr std::size_t kMostVertices = 4096;
 constexpr std::size_t kMostCorners = 256;
 
 double surface(const Vector3d& h) { return h.x() * h.y() + h.y() * h.z() + h.z() * h.x(); }
 
-/// [m]  Of coordinates in the body frame.
+/// [m]  The rounding error of coordinates in the body frame.
 double rounding_error(const Hierarchy& hierarchy) {
   return kRounding * (hierarchy.centre.norm() + hierarchy.radius);
 }
 
-/// [m]  The places of all vertices at both ends of the step, from the centre.
+/// [m]  Lists the places of all vertices at both ends of the step, from the centre.
 std::vector<Vector3d> places_of(const Hierarchy& hierarchy) {
   std::vector<Vector3d> places = hierarchy.vertices;
   places.insert(places.end(), hierarchy.vertices_to.begin(), hierarchy.vertices_to.end());
@@ -59,6 +59,8 @@ PointRows corners_of_box(const ShapeBounds& box) {
   return corners;
 }
 
+/// Finds the corners of the polytope.
+///
 /// @param to_centre  [m]  from the centre of the hierarchy to that of the box
 PointRows corners_of(const std::vector<Vector3d>& places, const ShapeBounds& box,
                      const Vector3d& to_centre) {

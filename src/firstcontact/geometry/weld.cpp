@@ -35,7 +35,7 @@ class PositionTable {
  public:
   explicit PositionTable(std::vector<Eigen::Vector3d>& vertices) : vertices_(vertices) {}
 
-  /// The number of the position; a new one is stored behind the others.
+  /// Finds the number of a position; a new one is stored behind the others.
   std::uint32_t number(const Eigen::Vector3d& p) {
     if (2 * std::size_t{count_} >= slots_.size()) {
       grow();

@@ -1,5 +1,5 @@
 /// @file
-/// Merges vertices that lie at the same place.
+/// Merges vertices at the same place.
 
 #pragma once
 

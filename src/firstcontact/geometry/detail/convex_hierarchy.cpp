@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The middle of the core along the axes of its frame.
+/// Finds the middle of the core along the axes of its frame.
 Vector3d middle_of(const ConvexCore& core) {
   Vector3d middle;
   for (int k = 0; k < 3; ++k) {
@@ -18,7 +18,7 @@ Vector3d middle_of(const ConvexCore& core) {
   return middle;
 }
 
-/// The axis along which the core is longest.
+/// Finds the axis along which the core is longest.
 int longest_axis(const ConvexCore& core) {
   int longest = 2;
   double most = 0.0;

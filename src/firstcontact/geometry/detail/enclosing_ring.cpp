@@ -14,7 +14,8 @@ using Eigen::Vector2d;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Corners of a regular polygon around a circle of radius 1 have the length 1 / cos(pi / n).
+/// Counts the corners. Those of a regular polygon around a circle of radius 1 have the length 1 /
+/// cos(pi / n).
 std::size_t corner_count(double relative_excess) {
   const double half_angle = std::atan(std::sqrt(relative_excess * (2.0 + relative_excess)));
   return std::max<std::size_t>(3, static_cast<std::size_t>(std::ceil(kPi / half_angle)));
@@ -38,7 +39,7 @@ bool is_outside(const Vector2d& a, const Vector2d& b, double radius) {
          sqr(twice_area).lower() >= (sqr(Interval(radius)) * length2).upper();
 }
 
-/// Not where there are no corners yet.
+/// Whether the polygon encloses the circle; false without corners.
 bool encloses(const std::vector<Vector2d>& corners, double radius) {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (!is_outside(corners[k], corners[(k + 1) % corners.size()], radius)) {
@@ -67,7 +68,7 @@ EnclosingRing enclosing_ring(double radius, double excess) {
   const std::size_t count = corner_count(0.999 * excess / radius);
   double length = unit_radius / std::cos(kPi / static_cast<double>(count));
   EnclosingRing ring;
-  // The corners, and the test of short edges, are off by some units in the last place.
+  // The corners and the test of short edges are off by some units in the last place.
   double growth = 0x1p-48;
   while (!encloses(ring.corners, unit_radius)) {
     length *= 1.0 + growth;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// An exact sum of doubles that do not overlap, the least first; zeros left out.
+/// An exact sum of doubles without overflow, the least term first; zeros left out.
 class Expansion {
  public:
   Expansion() = default;
@@ -43,7 +43,7 @@ class Expansion {
     }
   }
 
-  /// The last term decides: it is larger than all others together.
+  /// The last term decides the sign: it is larger than all others together.
   [[nodiscard]] int sign() const { return size_ == 0 ? 0 : terms_[size_ - 1] > 0.0 ? 1 : -1; }
 
  private:
@@ -97,11 +97,11 @@ int orientation(const Vector3d& a, const Vector3d& b, const Vector3d& c, const V
   const Vector3d v = c - a;
   const Vector3d w = d - a;
   const double volume = w.dot(u.cross(v));
-  // Six products of three factors, each rounded some times.
+  // Six products of three factors, each rounded a few times.
   const auto permanent = [&](int i, int j) {
     return std::abs(u[i] * v[j]) + std::abs(u[j] * v[i]);
   };
-  // Six products of three factors, each of them rounded some times.
+  // Six products of three factors, each rounded a few times.
   const double size = std::abs(w.x()) * permanent(1, 2) + std::abs(w.y()) * permanent(2, 0) +
                       std::abs(w.z()) * permanent(0, 1);
   if (std::abs(volume) > 0x1p-49 * size && size > 0x1p-900) {

@@ -55,7 +55,7 @@ std::vector<std::array<std::size_t, 2>> overlapping_pairs(
   using Pair = std::array<std::size_t, 2>;
   std::vector<Pair> found;
   OverlapTree(boxes).for_each_pair([&](std::size_t a, std::size_t b) { found.push_back({a, b}); });
-  // In rows of the same first box, each of which is short.
+  // Sorted by rows of the same first box; rows are short.
   std::vector<std::size_t> row(boxes.size() + 1, 0);
   for (const Pair& pair : found) {
     ++row[pair[0] + 1];

@@ -1,5 +1,5 @@
 /// @file
-/// Boxes that overlap, among many.
+/// Overlapping boxes among many.
 
 #pragma once
 
@@ -17,8 +17,8 @@ class OverlapTree {
  public:
   explicit OverlapTree(const std::vector<Eigen::AlignedBox3d>& boxes);
 
-  /// Calls use(k) for each box that overlaps or touches the given one, in an order that depends on
-  /// the tree's boxes alone.
+  /// Calls use(k) for each box that overlaps or touches the given one. The order depends on the
+  /// tree's boxes alone.
   template <class Use>
   void for_each_overlap(const Eigen::AlignedBox3d& box, const Use& use) const {
     for (std::size_t n = 0; n < nodes_.size();) {
@@ -44,7 +44,7 @@ class OverlapTree {
       for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
         use_overlaps(items_[i], i + 1, leaf.end, use);
       }
-      // Leaves that follow; nodes around this one come before it.
+      // Leaves that follow; inner nodes hold no items.
       for (std::size_t other = n + 1; leaf.end > leaf.begin && other < nodes_.size();) {
         const Node& node = nodes_[other];
         if (!node.box.intersects(leaf.box)) {
@@ -64,12 +64,12 @@ class OverlapTree {
     Eigen::AlignedBox3d box;
     std::size_t index = 0;
   };
-  /// Its children follow it. A leaf holds items_[begin, end), other nodes none.
+  /// A node of the tree. Its children follow it. A leaf holds items_[begin, end), other nodes none.
   struct Node {
     Eigen::AlignedBox3d box;
     std::size_t begin = 0;
     std::size_t end = 0;
-    std::size_t after = 0;  // The node that follows all that is below it.
+    std::size_t after = 0;  // The node that follows its subtree.
   };
   void build(std::size_t begin, std::size_t end);
 
@@ -87,7 +87,7 @@ class OverlapTree {
   std::vector<Node> nodes_;
 };
 
-/// All overlapping pairs {a, b}, a < b, by their order.
+/// Finds all overlapping pairs {a, b}, a < b, sorted.
 [[nodiscard]] std::vector<std::array<std::size_t, 2>> overlapping_pairs(
     const std::vector<Eigen::AlignedBox3d>& boxes);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Places by where they are.
+/// A spatial hash: places by their cells.
 
 #pragma once
 
@@ -16,12 +16,16 @@
 
 namespace firstcontact::detail {
 
-/// Finds those of many places that are near one.
+/// Finds the places that are near a given one.
 class SpatialHash {
  public:
+  /// Makes an empty spatial hash.
+  ///
   /// @param reach  [m]  near means no farther than this; > 0
   explicit SpatialHash(double reach) : reach_(reach) {}
 
+  /// Adds a place.
+  ///
   /// @param key  of the caller
   void add(const Eigen::Vector3d& place, std::size_t key) {
     if (count_ < kFew) {
@@ -37,7 +41,7 @@ class SpatialHash {
     ++count_;
   }
 
-  /// Calls use(key) for all that are near, and some others; for one as often as it was added.
+  /// Calls use(key) for all near places, and some others; for a place as often as it was added.
   template <class Use>
   void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
     if (count_ <= kFew) {
@@ -62,7 +66,7 @@ class SpatialHash {
   }
 
  private:
-  /// As many are looked through as they are.
+  /// [places]  Greatest number for which all are visited, without cells.
   static constexpr std::size_t kFew = 24;
 
   struct Place {
@@ -70,7 +74,8 @@ class SpatialHash {
     std::size_t key;
   };
   using Cell = std::array<std::int64_t, 3>;
-  /// A little wider than the reach, for rounding of places up to 2^42 of it.
+  /// Finds the cell of a place. Cells are a little wider than the reach, for rounding of places up
+  /// to 2^42 of it.
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& place) const {
     constexpr double kWider = 1.0 + 0x1p-10;
     Cell cell{};
@@ -82,8 +87,9 @@ class SpatialHash {
 
   double reach_;
   std::size_t count_ = 0;
-  std::array<Place, kFew> few_;                                         // The first ones.
-  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;  // Of all, where more.
+  std::array<Place, kFew> few_;  // The first places.
+  // All places, where they are more than kFew.
+  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
 };
 
 }  // namespace firstcontact::detail

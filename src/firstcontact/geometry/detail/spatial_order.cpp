@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two zeros between neighbouring bits of a number below 2^21.
+/// Puts two zeros between neighbouring bits of a number below 2^21.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffffu;
   x = (x | x << 16) & 0x1f0000ff0000ffu;

@@ -1,5 +1,5 @@
 /// @file
-/// Which vertices hang together.
+/// Connected components of the vertices of a mesh.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace firstcontact::detail {
 
-/// The sets of vertices that triangles join.
+/// Finds the sets of vertices that triangles join.
 inline DisjointSets vertex_components(const Mesh& mesh) {
   DisjointSets components(mesh.vertices.size());
   for (const auto& t : mesh.triangles) {
