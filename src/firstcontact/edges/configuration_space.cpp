@@ -21,7 +21,7 @@
 namespace firstcontact {
 namespace {
 
-constexpr double kLimitTolerance = 1e-9;  // [rad or m]  As that of limit_report().
+constexpr double kLimitTolerance = 1e-9;  // [rad or m]  Equal to that of limit_report().
 constexpr std::array<double, 2> kEdgeTimes = {0.0, 1.0};
 
 [[noreturn]] void refuse_space(const std::string& what) { throw std::invalid_argument(what); }
@@ -30,7 +30,7 @@ Pose pose_of(const Configuration& q) {
   return {{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])};
 }
 
-/// [rad]  Of the shortest rotation between two quaternions of any length.
+/// [rad]  The angle of the shortest rotation between two quaternions of any length.
 double angle_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond way = from.conjugate() * to;
   return 2.0 * std::atan2(way.vec().norm(), std::abs(way.w()));
@@ -44,7 +44,7 @@ Turning turning_of(const SpaceCoordinate& coordinate) {
   return coordinate.turns_short ? Turning::shortest : Turning::as_given;
 }
 
-/// The limits of a coordinate, or what is sampled where it has none.
+/// Takes the limits of a coordinate, or its sampled range where it has none.
 void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
   coordinate.slides = detail::is_slide(joint.type, coordinate.index);
   const bool has_own = joint.type == JointType::revolute || joint.type == JointType::prismatic ||
@@ -63,7 +63,7 @@ void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
 
 /// Narrows the limits of a coordinate to those that the joints which mimic it have.
 ///
-/// @param multiplier, offset  of a joint that follows the coordinate: multiplier q + offset
+/// @param multiplier, offset  a joint that follows the coordinate is at multiplier q + offset
 void narrow_by_mimics(const RobotModel& model, std::size_t joint, double multiplier, double offset,
                       SpaceCoordinate& coordinate) {
   for (std::size_t other = 0; other < model.joints().size(); ++other) {
@@ -87,7 +87,8 @@ void narrow_by_mimics(const RobotModel& model, std::size_t joint, double multipl
   }
 }
 
-/// [m]  No point of the robot is farther from the root than this plus the ways of sliding joints.
+/// [m]  Bounds the distance of any point of the robot from the root, without the displacements of
+/// sliding joints.
 double length_of(const RobotModel& model) {
   double length = 0.0;
   for (const Joint& joint : model.joints()) {
@@ -106,8 +107,8 @@ double length_of(const RobotModel& model) {
   return length + part;
 }
 
-/// Gives a coordinate of a robot its path; other coordinates of its joint are those of the rest
-/// unless they have theirs.
+/// Gives a coordinate of a robot its path. Other coordinates of its joint keep those of the rest,
+/// unless they have paths of their own.
 void set_path(const SpaceCoordinate& coordinate, CoordinatePath path, const RobotMotion& rest,
               std::vector<std::pair<std::size_t, JointMotion>>& joints) {
   if (rest.model().joints()[coordinate.joint].type != JointType::planar) {
@@ -304,7 +305,7 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
   if (has_screws()) {
     return std::numeric_limits<double>::infinity();
   }
-  constexpr double kUlps = 0x1p-48;  // Far more than the few roundings of a place and of its edge.
+  constexpr double kUlps = 0x1p-48;  // More than the rounding errors of a place and of its edge.
   std::vector<double> sizes(from.size());
   for (std::size_t k = 0; k < from.size(); ++k) {
     sizes[k] = std::abs(from[k]) + std::abs(to[k]);
@@ -315,8 +316,8 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
         std::numbers::pi - kNearHalfTurn) {
       return std::numeric_limits<double>::infinity();
     }
-    // A body turns about its own origin: rounded quaternions move no point by more than its reach
-    // has it, wherever the body is, and rounded positions move all points alike.
+    // A body turns about its own origin. Rounded quaternions move a point by at most its reach
+    // times their error, wherever the body is. Rounded positions move all points alike.
     const double places = sizes[0] + sizes[1] + sizes[2];
     const double turns = sizes[3] + sizes[4] + sizes[5] + sizes[6];
     return kUlps * (places + turns * movers_.front().reach);
@@ -325,7 +326,7 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
   for (std::size_t k = 0; k < movers_.size(); ++k) {
     const Mover& mover = movers_[k];
     const detail::RobotSizes robot = detail::robot_sizes(*mover.rest, k, coordinates_, sizes);
-    // Each radian moves a point by no more than its robot is long, with what slides drawn out. A
+    // A radian moves a point by at most the length of its robot, with sliding joints drawn out. A
     // slide moves all points alike.
     const double lever = mover.reach + carried + robot.slides;
     bound += robot.planned_slides + robot.planned_turns * lever;  // Two movers may be a pair.
@@ -439,7 +440,7 @@ void ConfigurationSpace::set_limits(const std::string& name, double lower, doubl
   found->lower = found->has_limits ? std::max(found->lower, lower) : lower;
   found->upper = found->has_limits ? std::min(found->upper, upper) : upper;
   found->has_limits = true;
-  found->turns_short = false;  // The short way might lead past the limits.
+  found->turns_short = false;  // The short way might pass the limits.
 }
 
 std::optional<std::string> ConfigurationSpace::unbounded() const {

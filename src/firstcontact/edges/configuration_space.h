@@ -63,7 +63,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// one turn.
   ///
   /// @param names  of coordinates, as find_coordinate() takes them; at least one
-  /// @param held   every joint that moves, at rest; the names may be among them
+  /// @param held   every joint that moves, at rest; the position of a named joint has no effect
   /// @throws std::invalid_argument  names the joint: unknown, fixed, mimicking another, named
   ///         twice, or not held
   static ConfigurationSpace of_joints(RobotModel model, std::span<const std::string> names,
@@ -96,7 +96,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   [[nodiscard]] bool is_body() const { return is_body_; }
   /// Whether edges are screws of a body.
   [[nodiscard]] bool has_screws() const { return edges_ == BodyEdges::screw; }
-  /// How many robots move; 1 for a body.
+  /// The number of robots that move; 1 for a body.
   [[nodiscard]] std::size_t mover_count() const { return movers_.size(); }
   [[nodiscard]] const RobotModel& model(std::size_t mover = 0) const {
     return movers_[mover].model;

@@ -53,7 +53,7 @@ bool is_at_rest(const RobotMotion& motion) {
   for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
     const JointPath* path = motion.joint_path(joint, 0.5);
     const std::optional<JointMotion> given = motion.given(joint);
-    // A joint that mimics rests with the one that it mimics.
+    // A joint that mimics another rests with it.
     all = all && (path == nullptr || path->rest() != nullptr ||
                   (given ? rests(*given) : motion.model().joints()[joint].mimic.has_value()));
   }
@@ -69,7 +69,7 @@ void require_robots(const PlanScene& plan) {
   }
 }
 
-/// Refuses what moves by itself.
+/// Refuses bodies and robots that move by themselves.
 void require_at_rest(const PlanScene& plan) {
   const RobotScene& scene = plan.scene;
   for (const Attachment& attachment : scene.attachments()) {
@@ -101,7 +101,7 @@ void require_at_rest(const PlanScene& plan) {
   }
 }
 
-/// Refuses held pairs of which nothing would be proven.
+/// Refuses held pairs about which nothing would be proven.
 ///
 /// @param held_scene  as scene_of_held()
 void require_held(const PlanScene& plan, const std::vector<HeldPair>& held,
@@ -126,7 +126,7 @@ void require_held(const PlanScene& plan, const std::vector<HeldPair>& held,
   }
 }
 
-/// What comes first; of the same time a contact rather than what is not known.
+/// Returns the earlier one; at the same time a contact has priority over an undecided pair.
 const detail::EdgeFound& earlier(const detail::EdgeFound& one, const detail::EdgeFound& other) {
   if (one.verdict == Verdict::free || other.verdict == Verdict::free) {
     return one.verdict == Verdict::free ? other : one;
@@ -137,7 +137,7 @@ const detail::EdgeFound& earlier(const detail::EdgeFound& one, const detail::Edg
   return is_contact(one.verdict) ? one : other;
 }
 
-/// [m]  How far what robots hold reaches from the links that hold it.
+/// [m]  Bounds how far bodies that robots hold reach from the links that hold them.
 double carried_reach(const RobotScene& scene) {
   double reach = 0.0;
   for (const Attachment& attachment : scene.attachments()) {
@@ -164,7 +164,7 @@ std::optional<std::size_t> PlanScene::mover(std::size_t robot) const {
 }
 
 struct EdgeChecker::Data {
-  /// What one thread works with.
+  /// The searches of one thread.
   struct ThreadWork {
     explicit ThreadWork(const Data& data)
         : search(data.padded, detail::question_of_edges(data.options),
@@ -197,7 +197,7 @@ struct EdgeChecker::Data {
     }
   }
 
-  /// What `ask` finds along an edge, of held pairs as well.
+  /// Searches along an edge by `ask`, held pairs included.
   template <class Ask>
   [[nodiscard]] EdgeAnswer ask_along(const Configuration& from, const Configuration& to,
                                      const Ask& ask) {
@@ -208,9 +208,9 @@ struct EdgeChecker::Data {
     return edge.fraction > 0.0 ? edge : with_proven_piece(work, from, to, found, edge, ask);
   }
 
-  /// An answer with the fraction to which an edge is proven where rounding is too large for a piece
-  /// to inherit that. It moves the axis of a screw, and places far away from the origin. So the
-  /// piece is asked by itself.
+  /// Finds the fraction to which an edge is proven, where rounding is too large for a piece to
+  /// inherit the proof. Rounding moves the axis of a screw, and places far from the origin. So the
+  /// piece itself is searched.
   template <class Ask>
   [[nodiscard]] EdgeAnswer with_proven_piece(ThreadWork& work, const Configuration& from,
                                              const Configuration& to,
@@ -232,7 +232,7 @@ struct EdgeChecker::Data {
     return edge;
   }
 
-  /// A finding, or what `ask` finds of held pairs where that comes earlier.
+  /// Returns a finding, or that of `ask` for held pairs where it is earlier.
   template <class Ask>
   [[nodiscard]] detail::EdgeFound with_held(ThreadWork& work, const Configuration& from,
                                             const Configuration& to, const detail::EdgeFound& found,
@@ -244,10 +244,10 @@ struct EdgeChecker::Data {
     return earlier(found, ask(*work.search_of_held));
   }
 
-  /// The answer that a search has found.
+  /// Makes the answer of a finding.
   ///
-  /// Before t all is free, with the extra; a piece to a rounded place departs by far less. Held
-  /// pairs have their tolerance in place of the extra, where that is less.
+  /// Before t all pairs are free, with the extra. The extra is larger than the departure of a piece
+  /// to a rounded place. Held pairs have their tolerance in place of the extra, where that is less.
   [[nodiscard]] EdgeAnswer answer(const Configuration& from, const Configuration& to,
                                   const detail::EdgeFound& found, double least_margin) const {
     EdgeAnswer answer;
@@ -271,9 +271,9 @@ struct EdgeChecker::Data {
   PlanScene plan;
   EdgeCheckOptions options;
   double carried;                  // [m]
-  double rounding;                 // [m]  That pieces of edges may depart by.
+  double rounding;                 // [m]  Permitted departure of pieces of edges.
   RobotScene padded;               // With the extra clearance; each thread has a copy.
-  std::optional<RobotScene> held;  // Likewise, where pairs are held.
+  std::optional<RobotScene> held;  // Set where pairs are held; copied in the same way.
   tbb::enumerable_thread_specific<std::unique_ptr<ThreadWork>> works;
 };
 

@@ -21,11 +21,11 @@ using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 constexpr int kIterations = 100;
 constexpr int kPatience = 8;           // Iterations in which the error has to fall to
-constexpr double kWorthwhile = 0.999;  // this share; else the search is at its nearest place.
-constexpr double kLongestStep = 0.5;   // [rad or m]  Of a coordinate in one iteration.
-constexpr double kSame = 1e-3;         // Of the space's length: two places are one.
-constexpr double kOfTolerance = 0.9;   // Share of it that the second search heads for.
-constexpr double kMoreTurns = 3.0;     // Where turns differ: so many times the span of samples.
+constexpr double kWorthwhile = 0.999;  // this fraction; else the search is at its nearest place.
+constexpr double kLongestStep = 0.5;   // [rad or m]  Longest step of a coordinate in one iteration.
+constexpr double kSame = 1e-3;        // Distance in the space's length at which two places are one.
+constexpr double kOfTolerance = 0.9;  // Fraction of the tolerance at which the second search aims.
+constexpr double kMoreTurns = 3.0;    // Where turns differ: this many times the span of samples.
 
 void require_goal(bool condition, const char* what) {
   if (!condition) {
@@ -33,7 +33,8 @@ void require_goal(bool condition, const char* what) {
   }
 }
 
-/// Whether a pose names a rigid transform: its quaternion may have any length that is no rounding.
+/// Whether a pose is a rigid transform: its quaternion may have any length that is not mere
+/// rounding.
 bool is_pose(const Pose& pose) {
   constexpr double kShortest = 1e-60;
   constexpr double kLongest = 1e60;
@@ -41,7 +42,7 @@ bool is_pose(const Pose& pose) {
   return pose.position.allFinite() && length >= kShortest && length <= kLongest;
 }
 
-/// The rotation vector of a rotation matrix; of at most half a turn.
+/// Computes the rotation vector of a rotation matrix; at most half a turn.
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
   const Eigen::AngleAxisd turn(R);
   return turn.angle() * turn.axis();
@@ -56,7 +57,7 @@ class PoseSearch {
         X_LT_(precise(goal.X_LT)),
         R_WT_(goal.X_WT.rotation.normalized().toRotationMatrix()) {}
 
-  /// Goes from a place towards the goal, and from where that ends towards its tolerances.
+  /// Searches from a place for the goal, and from its end for the tolerances alone.
   ReachedPose run(const Configuration& q) {
     const ReachedPose exact = approach(q);
     if (reaches(exact, goal_)) {
@@ -68,9 +69,9 @@ class PoseSearch {
     return reaches(loose, goal_) ? loose : exact;
   }
 
-  /// Goes from a place towards the goal as far as that helps.
+  /// Searches from a place for the goal as long as that helps.
   ///
-  /// @param is_patient  also where it helps little
+  /// @param is_patient  goes on where it helps little, too
   ReachedPose approach(Configuration q, bool is_patient = false) {
     for (std::size_t k = 0; k < q.size(); ++k) {
       q[k] = within_limits(k, q[k]);
@@ -99,13 +100,14 @@ class PoseSearch {
   }
 
  private:
-  /// Far within the tolerances, so that rounding does not decide.
+  /// Whether the errors are far within the tolerances, so that rounding does not decide.
   [[nodiscard]] bool is_exact(const Vector6& error) const {
     return error.head<3>().norm() <= 1e-3 * goal_.position_tolerance &&
            error.tail<3>().norm() <= 1e-3 * goal_.rotation_tolerance;
   }
 
-  /// [m]  With a metre for a radian; of a loose search, what is beyond the tolerances.
+  /// [m]  The error with a metre for a radian. In a loose search only the part beyond the
+  /// tolerances.
   [[nodiscard]] Vector6 weighed(Vector6 error) const {
     if (!has_rotation_) {
       error.tail<3>().setZero();
@@ -117,7 +119,7 @@ class PoseSearch {
     return error;
   }
 
-  /// [-]  The share of an error that is beyond what a loose search heads for.
+  /// [-]  The fraction of an error that is beyond the aim of a loose search.
   [[nodiscard]] static double share_beyond(double error, double tolerance) {
     const double kept = kOfTolerance * tolerance;
     return error > kept ? 1.0 - kept / error : 0.0;
@@ -134,7 +136,7 @@ class PoseSearch {
     return weighed(error);
   }
 
-  /// The rates of T along each coordinate, with the others at rest.
+  /// Computes the rates of T along each coordinate, with the others at rest.
   [[nodiscard]] Jacobian jacobian(const Configuration& q) {
     Jacobian J(6, static_cast<Eigen::Index>(q.size()));
     for (std::size_t k = 0; k < q.size(); ++k) {
@@ -149,10 +151,10 @@ class PoseSearch {
     return J;
   }
 
-  /// A damped step; coordinates that it would take beyond a limit stay there.
+  /// Makes a damped step. Coordinates that it would take beyond a limit stay there.
   Configuration stepped(const Configuration& q, const Vector6& error, double damping) {
     Jacobian J = jacobian(q);
-    if (is_loose_) {  // What is within its tolerance may change.
+    if (is_loose_) {  // Errors within their tolerance may change.
       J.topRows<3>() *= error.head<3>().isZero(0.0) ? 0.0 : 1.0;
       J.bottomRows<3>() *= error.tail<3>().isZero(0.0) ? 0.0 : 1.0;
     }
@@ -190,9 +192,9 @@ class PoseSearch {
                                  : position;
   }
 
-  /// With bounds of the errors: those that were computed, and how far the pose may be from exact.
+  /// Adds bounds of the errors: the computed errors plus the error of the pose.
   [[nodiscard]] ReachedPose bounded(Configuration q) const {
-    constexpr double kRounding = 0x1p-44;  // Relative; of the few operations from the pose on.
+    constexpr double kRounding = 0x1p-44;  // Relative error of the few operations on the pose.
     const LinkPose pose = path(q, q).pose(0.0);
     const double size = pose.p_OL.norm() + goal_.X_WT.position.norm();
     ReachedPose reached{std::move(q), 0.0, 0.0};

@@ -43,8 +43,8 @@ struct ReachOptions {
   /// Whether a place is acceptable, such as a free one; others are passed over. All, where empty.
   std::function<bool(const Configuration&)> accepts = {};
   std::uint64_t seed = 1;
-  std::optional<std::chrono::steady_clock::time_point> deadline =
-      {};                     ///< Time at which the search ends with the places found so far.
+  /// Time at which the search ends with the places found so far.
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::stop_token stop = {};  ///< Ends the search in the same way.
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// How a check is asked about edges.
+/// The scene and the options of a check of edges.
 
 #pragma once
 
@@ -12,28 +12,28 @@
 
 namespace firstcontact::detail {
 
-/// Whether each member moves along edges: it is a link of the mover that a coordinate of the space
-/// moves, or a body that such a link holds. Where the surroundings move, every link of the mover
+/// Finds which members move along edges: the links of a mover that a coordinate of the space moves,
+/// and the bodies that such links hold. In an environment that moves, every link of the mover
 /// counts.
 [[nodiscard]] std::vector<bool> moved_members(const PlanScene& plan);
 
-/// The scene in which edges are checked: all pairs keep an extra distance, and pairs that no edge
-/// moves are not tested.
+/// Makes the scene in which edges are checked: all pairs keep an extra distance, and pairs that no
+/// edge moves are not tested.
 [[nodiscard]] RobotScene scene_of_edges(const PlanScene& plan, double extra);
 
-/// The same without pairs that are held.
+/// Makes the same scene without the pairs that are held.
 [[nodiscard]] RobotScene scene_of_edges(const PlanScene& plan, double extra,
                                         std::span<const HeldPair> held);
 
-/// The scene in which held pairs alone are tested, with their distances for margins, and no more
-/// than `extra` and their tolerances beyond.
+/// Makes the scene in which only held pairs are tested. Their margins are their distances, plus
+/// `extra` or their tolerances, whichever is less.
 [[nodiscard]] RobotScene scene_of_held(const PlanScene& plan, double extra,
                                        std::span<const HeldPair> held);
 
-/// The question of a check with the options of edges.
+/// Makes the options of a check from those of edges.
 [[nodiscard]] RobotCheckOptions question_of_edges(const EdgeCheckOptions& options);
 
-/// The same for held pairs.
+/// Makes the options of a check of held pairs.
 [[nodiscard]] RobotCheckOptions question_of_held(const EdgeCheckOptions& options);
 
 }  // namespace firstcontact::detail

@@ -90,7 +90,7 @@ EdgeFound EdgeSearch::first_contact() {
     if (found.contact && found.contact->window.begin < first.t) {
       first = contact_at(*found.contact);
     }
-    // The earliest first: a contact spares all that is later.
+    // The earliest candidates first: a contact makes all later ones unnecessary.
     std::stable_sort(found.candidates.begin(), found.candidates.end(),
                      [](const GeometryCandidate& x, const GeometryCandidate& y) {
                        return x.window.begin < y.window.begin;
@@ -117,7 +117,7 @@ EdgeFound EdgeSearch::earlier_by(const GeometryCandidate& candidate, const EdgeF
   if (result.verdict == Verdict::free) {
     return first;
   }
-  // A contact at the same time decides rather than what is not known.
+  // At the same time a contact has priority over an undecided pair.
   const bool is_earlier =
       result.t < first.t || first.verdict == Verdict::free ||
       (result.t == first.t && is_contact(result.verdict) && !is_contact(first.verdict));
@@ -166,7 +166,7 @@ EdgeFound EdgeSearch::any_contact(std::vector<GeometryCandidate> candidates,
   std::erase_if(candidates, [](const GeometryCandidate& candidate) {
     return candidate.window.begin > candidate.window.end;
   });
-  // The middles of whole windows have been looked at, without tracking errors.
+  // The middles of whole windows have been tested, without tracking errors.
   const bool is_clipped = piece.begin < within.begin || piece.end > within.end;
   for (const GeometryCandidate& candidate : candidates) {
     const double middle = 0.5 * (candidate.window.begin + candidate.window.end);

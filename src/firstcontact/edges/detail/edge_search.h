@@ -1,5 +1,5 @@
 /// @file
-/// The search for contacts along one edge after the other, with memory that they share.
+/// The search for contacts along one edge after another, with memory that they share.
 
 #pragma once
 
@@ -19,54 +19,56 @@
 
 namespace firstcontact::detail {
 
-/// What a search found.
+/// The finding of a search.
 struct EdgeFound {
   Verdict verdict = Verdict::free;
-  double t = 1.0;  ///< [-]  Before it all pairs are proven free; 0 where only a verdict was asked.
+  double t = 1.0;  ///< [-]  Before it all pairs are proven free; 0 where only a verdict was wanted.
   std::optional<BodyPair> pair = {};
   UndecidedReason reason = UndecidedReason::none;
 };
 
-/// As RobotChecker, for robots of which all paths have one piece: no answers of pairs, no contacts.
+/// A search like RobotChecker, for robots whose paths all have one piece. It gives no answers of
+/// pairs and no contacts.
 ///
-/// Bodies are asked as bodies: where two slide in each other on a screw, few steps prove that.
-///
-/// For one thread.
+/// Bodies are searched as rigid bodies, not as links: where two slide in each other on a screw, few
+/// steps prove that. For one thread.
 class EdgeSearch {
  public:
-  /// @param options  tolerance and budget; all else is of no meaning
-  /// @param early    [-]  by so much time a first contact may be told too early
+  /// Prepares a search.
+  ///
+  /// @param options  only tolerance and budget are used
+  /// @param early    [-]  the most by which the time of a first contact may be too early
   EdgeSearch(RobotScene scene, const RobotCheckOptions& options, double early = 0.0);
   EdgeSearch(const EdgeSearch&) = delete;
   EdgeSearch& operator=(const EdgeSearch&) = delete;
 
-  /// Questions that follow are of this motion, and of those set before of other robots.
+  /// Sets the motion of a robot for the searches that follow. Other robots keep theirs.
   void set_motion(std::size_t robot, RobotMotion motion);
 
-  /// The first contact. One of bodies alone is not told too early.
+  /// Finds the first contact. A first contact of bodies alone is not too early.
   [[nodiscard]] EdgeFound first_contact();
 
-  /// Whether there is a contact; of several not the first one. Where geometries are in each other
-  /// half way, that is seen at once.
+  /// Finds a contact, not always the first one. Geometries that overlap in the middle of their
+  /// window are found at once.
   ///
-  /// @param within  a time in which contacts count; of no length where it is of one instant
+  /// @param within  the window in which contacts count; of no length for one instant
   [[nodiscard]] EdgeFound any_contact(const TimeWindow& within = {0.0, 1.0});
 
-  /// [m]  Of all pairs; infinite where there are none.
+  /// [m]  The least margin of all pairs; infinite where there are none.
   [[nodiscard]] double least_margin() const { return timeline_.least_margin(); }
 
  private:
   void follow_motions();
   [[nodiscard]] FirstContactResult ask(const GeometryCandidate& candidate,
                                        const TimeWindow& window);
-  /// The motion of a geometry as that of a rigid body, where it is no link among joints; null else.
+  /// The motion of a geometry as that of a rigid body; null for a link among joints.
   [[nodiscard]] const Motion* body_motion(std::size_t geometry) const;
   /// Whether two geometries are in contact at the instant that is the candidate's window.
   [[nodiscard]] bool is_contact_at(const GeometryCandidate& instant);
   [[nodiscard]] EdgeFound contact_at(const GeometryCandidate& instant) const;
-  /// What is known of a contact of which the time was not asked.
+  /// The finding of a contact whose time was not searched for.
   [[nodiscard]] EdgeFound contact_of(const GeometryCandidate& candidate) const;
-  /// What a candidate adds to the first contact of others.
+  /// The earlier one of a first contact and the contact of a candidate.
   [[nodiscard]] EdgeFound earlier_by(const GeometryCandidate& candidate, const EdgeFound& first);
   [[nodiscard]] EdgeFound any_contact(std::vector<GeometryCandidate> candidates,
                                       const TimeWindow& piece, const TimeWindow& within);
@@ -80,8 +82,8 @@ class EdgeSearch {
   bool is_followed_ = true;  // Whether the timeline has the motions of the scene.
   CandidateSearch candidates_;
   LinkWorkspace workspace_;
-  std::size_t robot_ = 0;             // The last that was moved.
-  std::optional<Motion> moved_body_;  // Of that, where it is a body.
+  std::size_t robot_ = 0;             // The robot that was moved last.
+  std::optional<Motion> moved_body_;  // Its motion, where it is a body.
 };
 
 }  // namespace firstcontact::detail

@@ -18,7 +18,7 @@ double size_of(const CoordinatePath& path) {
   return size;
 }
 
-/// [rad or m]  Of a coordinate of a joint that rests.
+/// [rad or m]  The size of a coordinate of a joint at rest.
 double size_at_rest(const JointMotion& motion, std::size_t index) {
   if (const auto* path = std::get_if<CoordinatePath>(&motion)) {
     return size_of(*path);
