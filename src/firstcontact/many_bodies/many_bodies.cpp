@@ -46,7 +46,7 @@ void for_each_tested_pair(const BodySet& bodies, const Use& use) {
   }
 }
 
-/// Takes the answers of pairs together; a pair that ends what is proven hides all after it.
+/// Combines the answers of pairs. A pair that ends the proven time hides all after it.
 class FirstOfAll {
  public:
   FirstOfAll(const BodySet& bodies, const ManyBodiesOptions& options)
@@ -66,7 +66,7 @@ class FirstOfAll {
     result_.work += pair.work;
     merge(pair, result_);
     if (!keeps_half_) {
-      result_.clearance = clearance;  // The margin, whenever the pair was in contact.
+      result_.clearance = clearance;  // It stays the margin, whenever the pair was in contact.
     }
     if (pair.verdict == Verdict::free || pair.t > horizon) {
       return;
@@ -81,7 +81,7 @@ class FirstOfAll {
     std::sort(result_.pairs.begin(), result_.pairs.end(),
               [](const PairAnswer& x, const PairAnswer& y) { return x.members < y.members; });
     result_.first = deciding_pair(result_.pairs);
-    if (result_.first) {  // Pairs were taken in another order.
+    if (result_.first) {  // Pairs came in another order.
       result_.verdict = result_.pairs[*result_.first].verdict;
       result_.reason = result_.pairs[*result_.first].reason;
     }
@@ -93,18 +93,18 @@ class FirstOfAll {
   SceneResult result_;
 };
 
-/// Pairs searched side by side with the same horizon. Fixed, so that answers do not depend on the
-/// number of threads.
+/// Number of pairs that are searched side by side with the same horizon. It is fixed, so that
+/// answers do not depend on the number of threads.
 constexpr std::size_t kRound = 32;
 
-/// Asks pairs, several at once.
+/// Queries of pairs, several at once.
 class PairQueries {
  public:
   PairQueries(const BodySet& bodies, detail::Workers& workers, ManyBodiesWorkspace::Data& data,
               const ManyBodiesOptions& options)
       : bodies_(bodies), workers_(workers), data_(data), options_(options) {}
 
-  /// The answers of some pairs, each searched in the window that window_of(pair) gives.
+  /// Answers some pairs, each in the window that window_of(pair) gives.
   template <class WindowOf>
   std::span<const PairAnswer> first_contacts(std::span<const Candidate> pairs,
                                              const WindowOf& window_of) {
@@ -118,7 +118,7 @@ class PairQueries {
     return {data_.answers.data(), pairs.size()};
   }
 
-  /// First contact over the whole step, and closest approach where that is asked.
+  /// Finds the first contact over the whole step, and the closest approach where it is wanted.
   void answer_whole_step(std::span<PairAnswer> pairs) {
     workers_.for_each(pairs.size(), 1, [&](std::size_t k) {
       ask(pairs[k], {});

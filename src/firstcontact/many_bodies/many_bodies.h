@@ -18,8 +18,8 @@ namespace firstcontact {
 struct ManyBodiesOptions {
   FirstContactOptions pair;  ///< Options of every pair; `margin` is not used, as the rules have it.
   int threads = 0;           ///< Most threads; 0 for one on each core. Answers do not depend on it.
-  bool closest = false;  ///< For answer_each_pair: also finds the closest approach of each pair.
-  /// For answer_each_pair: also finds every interval of contact of each pair.
+  bool closest = false;  ///< Also finds the closest approach of each pair; for answer_each_pair().
+  /// Also finds every interval of contact of each pair; for answer_each_pair().
   bool all_contacts_in_time = false;
   /// [-]  Resolution of the intervals, see ContactInterval; in (0, 1].
   double time_resolution = 1e-3;

@@ -5,7 +5,7 @@
 namespace firstcontact {
 namespace {
 
-/// By distance; those that touch by the time of it.
+/// The sorting key of a closest approach: its distance, for pairs that touch the time.
 std::pair<double, double> closeness(const ClosestApproach& found) {
   const bool touch = found.reason == UndecidedReason::none && found.lower_bound == 0.0;
   return {touch ? 0.0 : found.distance, found.t};

@@ -84,7 +84,7 @@ bool BoxJoin::join_both(std::uint32_t index_a, std::uint32_t index_b) {
   if (!a.box.intersects(b.box)) {
     return true;
   }
-  // The larger one is opened; where one is a leaf, the other.
+  // Opens the larger one; where one is a leaf, the other.
   const bool a_larger = a.box.sizes().squaredNorm() >= b.box.sizes().squaredNorm();
   if (a.second != 0 && (a_larger || b.second == 0)) {
     return join_both(index_a + 1, index_b) && join_both(a.second, index_b);

@@ -1,5 +1,5 @@
 /// @file
-/// All pairs of boxes that overlap.
+/// Finds all pairs of boxes that overlap.
 
 #pragma once
 
@@ -16,17 +16,18 @@ namespace firstcontact::detail {
 
 /// A tree over boxes, joined with itself to find the boxes that overlap.
 ///
-/// It is halved at the median centre along the longest side: O(n log n + pairs) for boxes that
-/// overlap few others, whatever their sizes.
+/// It is halved at the median centre along the longest side. For boxes of any sizes that overlap
+/// few others this takes O(n log n + pairs).
 class BoxJoin {
  public:
-  /// Appends the overlapping pairs, touching ones included, in an order that depends on the boxes
-  /// alone. False where there are more than `most`; then some are missing.
+  /// Appends the overlapping pairs, touching ones included. Their order depends on the boxes alone.
+  /// Returns false where there are more than `most`; then some are missing.
   bool join(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t most,
             std::vector<BodyPair>& pairs);
 
  private:
-  /// Its boxes are items_[begin, end). The first child follows it; a leaf has no second one.
+  /// A node of the tree. Its boxes are items_[begin, end). The first child follows it; a leaf has
+  /// no second one.
   struct Node {
     Eigen::AlignedBox3d box;
     std::uint32_t begin = 0;

@@ -9,7 +9,7 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kPairsPerBody = 8;  // More are worth the work of shorter intervals.
+constexpr std::size_t kPairsPerBody = 8;  // With more, shorter intervals take less work.
 constexpr double kShortest = 0x1p-10;
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max() / 8;
 
@@ -45,7 +45,7 @@ BallPath BroadPhase::ball(std::size_t body, double more) const {
   return {bodies_.centre_path(body), shape.hierarchy().radius + shape.radius() + more};
 }
 
-/// Half of a pair's margin, at least, belongs to each body.
+/// Places the boxes. At least half of a pair's margin belongs to each body.
 void BroadPhase::place_boxes(const TimeWindow& window) {
   data_.boxes.resize(bodies_.size());
   workers_.for_each(bodies_.size(), 64, [&](std::size_t k) {
@@ -59,7 +59,7 @@ bool BroadPhase::join(const TimeWindow& window, std::size_t most) {
   return data_.join.join(data_.boxes, most, data_.overlaps);
 }
 
-/// False where the interval is better halved.
+/// Finds overlaps; false where the interval is better halved.
 bool BroadPhase::find_overlaps(const TimeWindow& window) {
   const std::size_t usual = kPairsPerBody * bodies_.size();
   if (join(window, usual)) {

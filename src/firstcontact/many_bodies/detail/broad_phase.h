@@ -1,5 +1,6 @@
 /// @file
-/// Which pairs of many moving bodies may touch, interval by interval of the step.
+/// The broad phase: the pairs of many moving bodies that may touch, interval by interval of the
+/// step.
 
 #pragma once
 
@@ -18,7 +19,7 @@ namespace firstcontact::detail {
 
 /// A pair that may touch in an interval.
 struct Candidate {
-  double free_until = 0.0;  ///< [-]  Proven of this pair.
+  double free_until = 0.0;  ///< [-]  Time until which this pair is proven free.
   BodyPair bodies = {};
   double margin = 0.0;  ///< [m]
 
@@ -27,7 +28,7 @@ struct Candidate {
   }
 };
 
-/// Its memory, for use again.
+/// The memory of a broad phase, for use again.
 struct BroadPhaseData {
   std::vector<Eigen::AlignedBox3d> boxes;
   BoxJoin join;
@@ -41,8 +42,9 @@ class BroadPhase {
  public:
   BroadPhase(const BodySet& bodies, Workers& workers, BroadPhaseData& data);
 
-  /// Calls use(window, candidates) in the order of time until it returns false. The candidates of
-  /// a window come by the time until which they are proven free; all other pairs are free in it.
+  /// Calls use(window, candidates) in the order of time until it returns false. The candidates of a
+  /// window are sorted by the time until which they are proven free. All other pairs are free in
+  /// the window.
   void for_each_interval(
       const std::function<bool(const TimeWindow&, const std::vector<Candidate>&)>& use);
 

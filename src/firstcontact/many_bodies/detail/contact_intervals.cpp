@@ -6,10 +6,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Bisections of one step of the resolution, to find where a contact ends.
+/// Bisections of one step of the resolution at the end of a contact.
 constexpr int kBisections = 10;
 
-/// From a contact on: the first time found at which the two are apart, or the window's end.
+/// Finds the first sampled time after a contact at which the two are apart, or the window's end.
 double end_of_contact(const Outcome& contact, const IntervalSearch& search,
                       const ContactQueries& queries) {
   const auto touch = [&](double t) {
