@@ -32,7 +32,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Moments of inertia as printed: this far from what a body can have they are meant so.
+/// Tolerance of moments of inertia that were printed with few digits.
 constexpr double kPrinted = 1e-3;  // [-]
 
 Quaterniond quaternion(const VectorXd& positions, Index at) {
@@ -66,7 +66,7 @@ Index velocity_count(JointType type) {
   }
 }
 
-/// What is wrong with the inertia of a link; empty if some body has it.
+/// Finds the defect of a link's inertia; empty if some body can have it.
 std::string wrong_inertia(const LinkInertia& inertia) {
   if (!inertia.defect.empty()) {
     return inertia.defect;
@@ -93,12 +93,12 @@ bool is_definite(const MatrixXd& M) {
              .eigenvalues()[0] > kSingular;
 }
 
-/// How a joint moves its child now, about a reference point.
+/// The effect of a joint on its child at one instant, about a reference point.
 struct JointPlace {
   Vector3d p_WL;
   Quaterniond R_WL;
   Jacobian S;                      // (6, velocities)
-  Spatial bias = Spatial::Zero();  // Beyond what the parent carries along.
+  Spatial bias = Spatial::Zero();  // Beyond the share that the parent carries along.
 };
 
 JointPlace place_joint(const Joint& joint, const VectorXd& q, const VectorXd& v,
@@ -133,7 +133,7 @@ JointPlace place_joint(const Joint& joint, const VectorXd& q, const VectorXd& v,
       place.p_WL += q[0] * x + q[1] * y;
       place.R_WL = turn(q[2] * axis) * R_WJ;
       place.S << along(x), along(y), about(axis, place.p_WL);
-      // The point about which it turns moves.
+      // The point about which the joint turns moves.
       place.bias = along((v[0] * x + v[1] * y).cross(v[2] * axis));
       break;
     }
@@ -366,7 +366,7 @@ MatrixXd Mechanism::mass_matrix(const MechanismInstant& instant) const {
       }
     }
   }
-  // Velocities of a link are not in their order: those of a mimic come where its joint is.
+  // Velocities of a link are not sorted: those of a mimic stand at the place of its joint.
   for (Index i = 0; i < size_; ++i) {
     for (Index k = 0; k < i; ++k) {
       M(k, i) += M(i, k);

@@ -40,8 +40,8 @@ struct MechanismJoint {
 
 /// The links of a mechanism at one instant.
 ///
-/// Spatial velocities are (v, w), in world axes: w is the angular velocity, v the velocity of the
-/// point that moves with the link and is at the reference point now.
+/// Spatial velocities are (v, w), in world axes. Here w is the angular velocity, and v the velocity
+/// of the link's point that is at the reference point now.
 struct MechanismInstant {
   using Spatial = Eigen::Matrix<double, 6, 1>;
 

@@ -23,18 +23,18 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// No coordinate turns farther in a sub-step of free motion.
+/// The most by which a coordinate moves in a sub-step of free motion.
 constexpr double kSubStep = 0.05;  // [rad or m]
 constexpr int kMostSubSteps = 4096;
-/// Nor farther than this, by what it moves where accelerations change within the sub-step.
+/// The most by which it moves where accelerations change within the sub-step.
 constexpr double kMostWay = 2.0 * kSubStep;  // [rad or m]
-/// [-]  Both accelerations halfway, times the sub-step, differ by no more of the velocity, in
-/// the norm of the energy.
+/// [-]  The most by which both accelerations halfway, times the sub-step, differ, as a fraction of
+/// the velocity, in the norm of the energy.
 constexpr double kMostApart = 1e-3;
-/// [rad/s or m/s]  What rounds.
+/// [rad/s or m/s]  A difference that is mere rounding.
 constexpr double kRoundedApart = 1e-12;
-/// Sub-steps that are halved in a motion: in a jam no number of them follows what nothing yields
-/// to.
+/// The most sub-steps that are halved in a motion. In a jam, where nothing yields, no number of
+/// them follows the motion.
 constexpr int kMostHalved = 256;
 
 /// Accelerations and the forces on driven coordinates.
@@ -43,7 +43,7 @@ struct Response {
   VectorXd forces;
   MatrixXd M = {};
 
-  /// [J]  Twice the kinetic energy there.
+  /// [J]  Twice the kinetic energy at these velocities.
   [[nodiscard]] double energy_of(const VectorXd& velocities) const {
     return velocities.dot(M * velocities);
   }
@@ -73,8 +73,8 @@ Response respond(const MatrixXd& M, const VectorXd& forces, const std::vector<In
 
 }  // namespace
 
-/// How fast a displacement grows. The turn of a pose is the one that the displacement's rotation
-/// vector d makes and then some more: d' = w - d x w / 2 + d x (d x w) / 12, to fourth order.
+/// Computes the rates of a displacement. The turn of a pose is that of the displacement's rotation
+/// vector d and a small one after it. So d' = w - d x w / 2 + d x (d x w) / 12, to fourth order.
 VectorXd Mechanism::rates(const VectorXd& displacement, const VectorXd& velocities) const {
   VectorXd result = velocities;
   for (const MechanismJoint& block : blocks_) {
@@ -94,15 +94,15 @@ MechanismState Mechanism::after_free_motion(const MechanismState& state, const V
   return after_driven_motion(state, gravity, {}, dt).end;
 }
 
-/// The classical rule of fourth order for a mechanism under given forces.
+/// Runge and Kutta's classical rule of fourth order for a mechanism under given forces.
 class Mechanism::Flight {
  public:
   Flight(const Mechanism& mechanism, const Vector3d& gravity, const MechanismDrive& drive,
          MechanismMotion& motion)
       : mechanism_(mechanism), gravity_(gravity), drive_(drive), motion_(motion) {}
 
-  /// Goes on by a time, in parts where a rule of this order does not follow the motion: light links
-  /// that carry a heavy one turn by radians in a hundredth of the time that their speed tells.
+  /// Goes on by a time, in parts where the rule does not follow the motion. Light links that carry
+  /// a heavy one turn by radians in a hundredth of the time that their speed suggests.
   void advance(double time) {
     const Step step = make_step(time);
     if (step.is_followed || halved_ == kMostHalved) {
@@ -159,7 +159,7 @@ class Mechanism::Flight {
     if (!drive_.driven.empty()) {
       step.impulses = h / 6.0 * (a1.forces + 2.0 * a2.forces + 2.0 * a3.forces + a4.forces);
     }
-    // Both accelerations halfway are of one time: they agree where the rule follows the motion.
+    // Both accelerations halfway belong to one time: they agree where the rule follows the motion.
     const VectorXd apart = h * (a3.accelerations - a2.accelerations);
     const double whole = std::max(a1.energy_of(v1), a4.energy_of(v4));
     step.is_followed = d4.size() == 0 || (d4.lpNorm<Eigen::Infinity>() <= kMostWay &&
@@ -198,7 +198,7 @@ VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positio
   const MechanismInstant from = at(state);
   const MechanismInstant to = at({positions, VectorXd::Zero(size_)});
   VectorXd momenta = VectorXd::Zero(size_);
-  double energy = 0.0;  // Twice.
+  double energy = 0.0;  // Twice the energy.
   for (std::size_t l = 0; l < from.X_WL.size(); ++l) {
     const auto& inertia = model_.links()[l].inertia;
     if (!inertia) {

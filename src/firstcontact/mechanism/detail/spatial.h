@@ -13,8 +13,10 @@
 
 namespace firstcontact::detail {
 
+/// A spatial vector: the linear part, then the angular one.
 using Spatial = Eigen::Matrix<double, 6, 1>;
 
+/// The matrix of the cross product with v.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
@@ -27,21 +29,21 @@ inline Spatial spatial(const Eigen::Vector3d& linear, const Eigen::Vector3d& ang
   return s;
 }
 
-/// The rate of a motion vector that a moving frame carries along.
+/// Computes the rate of a motion vector that a moving frame carries along.
 inline Spatial cross_motion(const Spatial& V, const Spatial& m) {
   const Eigen::Vector3d v = V.head<3>();
   const Eigen::Vector3d w = V.tail<3>();
   return spatial(w.cross(m.head<3>()) + v.cross(m.tail<3>()), w.cross(m.tail<3>()));
 }
 
-/// The same of a force or momentum.
+/// Computes the rate of a force or momentum that a moving frame carries along.
 inline Spatial cross_force(const Spatial& V, const Spatial& f) {
   const Eigen::Vector3d v = V.head<3>();
   const Eigen::Vector3d w = V.tail<3>();
   return spatial(w.cross(f.head<3>()), v.cross(f.head<3>()) + w.cross(f.tail<3>()));
 }
 
-/// The spatial inertia of a link about a point, (6, 6).
+/// Computes the spatial inertia of a link about a point, (6, 6).
 inline Eigen::Matrix<double, 6, 6> spatial_inertia(const LinkInertia& inertia, const Pose& X_WL,
                                                    const Eigen::Vector3d& about) {
   const Eigen::Matrix3d R = X_WL.rotation.toRotationMatrix();
