@@ -19,7 +19,7 @@ class CsvLine {
     text_ += word;
     return *this;
   }
-  /// Shortest, and read as it was.
+  /// Adds a number in its shortest form that reads back to the same number.
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number> CsvLine& add(Number number) {
     std::array<char, 40> digits;

@@ -23,7 +23,7 @@ RunBody run_body(const HapticMemberMotion& motion, std::size_t body) {
   return made;
 }
 
-/// Contacts of a run name the body with the smaller number first.
+/// Makes a contact of a run; it names the body with the smaller number first.
 RunContact run_contact(const HapticTouch& touch, std::size_t other, std::size_t tool) {
   const HapticContact& contact = touch.contact;
   RunContact made{.bodies = {other, tool},

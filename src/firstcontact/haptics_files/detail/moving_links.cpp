@@ -25,9 +25,9 @@ Pose pose_of(const Isometry3d& X) {
   return {X.translation(), Eigen::Quaterniond(X.linear()).normalized()};
 }
 
-/// A joint as a function of the coordinate of one that grips move: multiplier q + offset.
+/// A joint as a function of the coordinate of a joint that grips move: multiplier q + offset.
 struct Driven {
-  std::size_t joint = 0;  ///< Of the tool.
+  std::size_t joint = 0;  ///< Index in the tool.
   double multiplier = 1.0;
   double offset = 0.0;
 };
@@ -76,7 +76,7 @@ class MovingLinksFinder {
     }
   }
 
-  /// Joints that follow others, which may follow others in turn.
+  /// Finds the joints that follow others, which may follow others in turn.
   void find_mimics() {
     for (std::size_t round = 0; round < model_.joints().size(); ++round) {
       for (std::size_t k = 0; k < model_.joints().size(); ++k) {
@@ -97,7 +97,7 @@ class MovingLinksFinder {
     }
   }
 
-  /// Limits of a joint that follows are limits of the one that it follows.
+  /// Applies the limits of a joint that follows to the joint that it follows.
   void narrow(const JointLimits& limits, const Driven& driven) {
     HapticToolJoint& joint = tool_.joints[driven.joint];
     if (driven.multiplier == 0.0) {
@@ -158,10 +158,10 @@ class MovingLinksFinder {
     fail("expected a link with a geometry that no grip moves");
   }
 
-  /// Adds the links that hang on one, depth first: a parent stands before its children.
+  /// Adds the links below one, depth first: a parent stands before its children.
   ///
   /// @param link    of the robot
-  /// @param parent  of the tool: the link itself, or the one that it is fixed to
+  /// @param parent  of the tool: the link itself, or the link to which it is fixed
   void add_below(std::size_t link, std::optional<std::size_t> parent, MovingLinks& found) {
     if (link == model_.root() && has_geometry(link) && link != found.body) {
       parent = add(link, {}, {}, found);

@@ -16,10 +16,10 @@ struct SceneRobot;
 
 namespace firstcontact::detail {
 
-/// Links of a tool, and which links of the robot they are.
+/// The links of a tool, with their indices in the robot.
 struct MovingLinks {
   std::size_t body = 0;             ///< Link of the robot that is the body of the tool.
-  std::vector<std::size_t> number;  ///< Link of the robot, of each of HapticToolQuestion::links.
+  std::vector<std::size_t> number;  ///< Link of the robot for each of HapticToolQuestion::links.
 };
 
 /// Fills in the joints and links of a tool, without bodies.
@@ -28,15 +28,15 @@ struct MovingLinks {
 /// robot's root. Joints that mimic others move along. Links without a geometry are left out, unless
 /// a joint moves them.
 ///
-/// @param robot  with the tool's grips
+/// @param robot  index of the robot that is the tool
 /// @throws std::invalid_argument  names the robot: grips move all links, or a joint starts out of
 ///         its limits
 [[nodiscard]] MovingLinks find_moving_links(const RobotScene& robots, std::size_t robot,
                                             const SceneRobot& described, HapticToolQuestion& tool);
 
-/// Whether two links are connected by one joint, or by none that moves.
+/// Whether two links are connected by one joint, or by no joint that moves.
 ///
-/// @param a, b  of the tool; none for its body
+/// @param a, b  links of the tool; none for its body
 [[nodiscard]] bool are_connected(const HapticToolQuestion& tool, std::optional<std::size_t> a,
                                  std::optional<std::size_t> b);
 

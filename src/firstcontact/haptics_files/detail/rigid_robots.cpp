@@ -59,7 +59,7 @@ void append(const Mesh& mesh, const Isometry3d& X_RG, Mesh& all) {
   }
 }
 
-/// The triangles of a geometry; of a sphere or a capsule those that enclose it.
+/// Appends the triangles of a geometry; for a sphere or a capsule those that enclose it.
 void append_geometry(const Shape& shape, const Isometry3d& X_RG, Mesh& all) {
   const Mesh& mesh = shape.mesh();
   const double r = shape.radius();
@@ -82,7 +82,8 @@ void append_geometry(const Shape& shape, const Isometry3d& X_RG, Mesh& all) {
   }
 }
 
-/// A sphere and a capsule are thick points and segments, without an inside of their own.
+/// Whether a geometry is filled. A sphere and a capsule are thick points and segments without an
+/// inside of their own.
 bool is_filled(const Shape& shape) { return shape.is_solid() || shape.radius() > 0.0; }
 
 class RobotsAsBodies {
@@ -117,8 +118,8 @@ class RobotsAsBodies {
   }
 
  private:
-  /// A mesh of links that are solid in part is a surface: what starts inside of a solid link would
-  /// not be noticed any more.
+  /// Requires that robots do not overlap tools at the start. A mesh whose links are only partly
+  /// solid is a surface: a start inside of a solid link would not be noticed later.
   void require_apart_at_start() const {
     const std::set<std::size_t> tools = members_of_tools();
     for (std::size_t a = 0; a < loaded_.robots->size(); ++a) {
@@ -177,7 +178,7 @@ class RobotsAsBodies {
     return false;
   }
 
-  /// Loading the bodies again gives its own warnings again: only those that it cannot give are
+  /// Takes over warnings. Loading the bodies again repeats its own warnings; only the others are
   /// kept.
   void take_warnings() {
     for (const std::string& warning : loaded_.warnings) {
@@ -199,7 +200,7 @@ class RobotsAsBodies {
     return nullptr;
   }
 
-  /// A body at a pose of the geometries of some members.
+  /// Makes a body at a pose from the geometries of some members.
   Body body_of_members(const std::string& name, const Pose& X_WB, std::size_t from, std::size_t to,
                        std::size_t number) {
     const RobotScene& robots = *loaded_.robots;
@@ -231,7 +232,7 @@ class RobotsAsBodies {
                                       first_ + robot));
   }
 
-  /// Adds a body for each link of a tool, and what its links ignore of each other.
+  /// Adds a body for each link of a tool, and the pairs of its links that are ignored.
   void add_links(std::size_t robot, HapticToolQuestion& tool) {
     const SceneRobot& described = scene_.robots[robot];
     const RobotScene& robots = *loaded_.robots;
@@ -265,7 +266,7 @@ class RobotsAsBodies {
     }
   }
 
-  /// The body that a member is now; none for a link without geometry.
+  /// Finds the body of a member; none for a link without geometry.
   [[nodiscard]] std::optional<std::size_t> body_of(std::size_t member) const {
     if (member < first_) {
       return member;
@@ -274,7 +275,7 @@ class RobotsAsBodies {
     return found == body_of_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  /// The members that a body has: itself, or its links with geometry.
+  /// Counts the members of a body: one, or its links with geometry.
   [[nodiscard]] std::size_t count(std::size_t body) const {
     return body < first_ ? 1 : counts_.at(body);
   }
@@ -331,11 +332,11 @@ class RobotsAsBodies {
   Scene& scene_;
   LoadedScene loaded_;
   std::size_t first_;
-  std::vector<Body> bodies_;                         // Of robots.
-  std::vector<Body> links_;                          // Of tools with grips.
-  std::vector<BodyPair> of_links_;                   // That these ignore of each other.
-  std::map<std::size_t, std::size_t> body_of_ = {};  // Of members that are links.
-  std::map<std::size_t, std::size_t> counts_ = {};   // Links with geometry of such a body.
+  std::vector<Body> bodies_;                         // Bodies of robots.
+  std::vector<Body> links_;                          // Bodies of links of tools with grips.
+  std::vector<BodyPair> of_links_;                   // Pairs of these that are ignored.
+  std::map<std::size_t, std::size_t> body_of_ = {};  // Bodies of members that are links.
+  std::map<std::size_t, std::size_t> counts_ = {};  // Number of links with geometry of such a body.
 };
 
 }  // namespace

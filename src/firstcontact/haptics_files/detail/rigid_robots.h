@@ -1,5 +1,5 @@
 /// @file
-/// Robots as bodies: a hand as a tool, an arm at rest as what it meets.
+/// Robots as bodies: a hand becomes a tool, an arm at rest an obstacle.
 
 #pragma once
 
@@ -10,8 +10,8 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Puts one body in place of each robot at rest, behind the bodies of the scene: a mesh of the
-/// triangles of all its links.
+/// Replaces each robot at rest by one body, behind the bodies of the scene: a mesh of the triangles
+/// of all its links.
 ///
 /// The body has the name of the robot, and the frame of its root link. Its vertices are rounded to
 /// doubles, which define it from then on. Curved geometries become the triangles that enclose them:
@@ -24,7 +24,7 @@ namespace firstcontact::detail {
 ///
 /// @param scene  with haptics
 /// @throws std::invalid_argument  names the robot: it moves, has dynamics or tracking errors, is
-///         padded or holds a body; a rule for pairs is of some of its links only; or it meets a
+///         padded or holds a body; a rule for pairs names only some of its links; or it meets a
 ///         tool at the start
 /// @throws as load_scene
 void make_robots_bodies(Scene& scene, ShapeCache& cache);
