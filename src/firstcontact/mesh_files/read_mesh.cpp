@@ -18,7 +18,8 @@
 namespace firstcontact {
 namespace {
 
-/// The name of the format in reports, by the extension of its files; empty for what is none.
+/// Finds the name of the format in reports, by the extension of its files; empty for an unknown
+/// one.
 std::string format_of(std::string_view extension) {
   constexpr std::array<std::array<std::string_view, 2>, 7> kFormats = {{{"obj", "OBJ"},
                                                                         {"stl", "STL"},

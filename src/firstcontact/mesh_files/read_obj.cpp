@@ -45,10 +45,10 @@ constexpr std::array<LeftOutStatement, 20> kLeftOut = {{{"vn", "normals"},
                                                         {"stech", "drawing of curved surfaces"},
                                                         {"lines of whole numbers", "counts"}}};
 
-/// Of lines of counts: the last of the table, whose name no statement can have.
+/// Index of lines of counts: the last of the table, whose name no statement can have.
 constexpr std::size_t kCounts = kLeftOut.size() - 1;
 
-/// How often each was left out; by its place in the table.
+/// Numbers of left-out statements, by their place in the table.
 using LeftOutCounts = std::array<std::size_t, kLeftOut.size()>;
 
 void read_vertex(TextCursor& text, MeshBuilder& mesh) {
@@ -114,7 +114,7 @@ void read_polygon(TextCursor& text, MeshBuilder& mesh) {
   }
 }
 
-/// `p`: each corner on its own. `l`: each corner with the one before.
+/// Reads the corners of `p`, each on its own, or of `l`, each with the one before.
 void read_simplices(TextCursor& text, MeshBuilder& mesh, bool joined) {
   std::size_t count = 0;
   std::int64_t previous = 0;
@@ -133,7 +133,7 @@ void read_simplices(TextCursor& text, MeshBuilder& mesh, bool joined) {
   }
 }
 
-/// A line of counts only: some exporters begin with the numbers of vertices and faces.
+/// Whether a line has counts only: some exporters begin with the numbers of vertices and faces.
 bool is_counts(std::string_view word, TextCursor& text) {
   while (!word.empty() && word.find_first_not_of("0123456789") == word.npos) {
     word = text.word();

@@ -19,7 +19,7 @@ bool consume(std::string_view& text, std::string_view prefix) {
   return found;
 }
 
-/// [ST][C][N]OFF; the counts may follow on the same line.
+/// Reads the header [ST][C][N]OFF; the counts may follow on the same line.
 void read_header(TextCursor& text) {
   const std::string_view word = text.find_line() ? text.word() : std::string_view();
   std::string_view rest = word;
@@ -48,7 +48,7 @@ std::uint64_t read_count(TextCursor& text, const char* what) {
             std::to_string(count) + ", got the end of the file");
 }
 
-/// What the lines of vertices and faces have that is no geometry.
+/// The numbers of columns of vertices and faces that are no geometry.
 struct LeftOutColumns {
   std::size_t of_vertices = 0;
   std::size_t of_faces = 0;

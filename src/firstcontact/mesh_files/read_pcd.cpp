@@ -32,7 +32,7 @@ enum class Data { ascii, binary, compressed };
 
 struct Header {
   std::vector<Field> fields;
-  std::array<std::size_t, 3> coordinates{};  ///< Fields of x, y and z.
+  std::array<std::size_t, 3> coordinates{};  ///< Indices of the fields x, y and z.
   std::optional<std::int64_t> width;
   std::optional<std::int64_t> height;
   std::optional<std::int64_t> points;
@@ -54,7 +54,7 @@ void read_fields(TextCursor& text, Header& header) {
   }
 }
 
-/// One value for each field, in their order.
+/// Reads one value for each field, in their order.
 template <class Read>
 void read_for_each_field(TextCursor& text, Header& header, const Read& read) {
   if (header.fields.empty()) {
@@ -140,7 +140,7 @@ void find_count(const TextCursor& text, Header& header) {
   }
 }
 
-/// Leaves the text behind the line DATA.
+/// Reads the header, up to the end of the line DATA.
 Header read_header(TextCursor& text) {
   constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
   Header header;
@@ -179,7 +179,7 @@ Header read_header(TextCursor& text) {
   text.fail("expected a line DATA in the header, got the end of the file");
 }
 
-/// A missing point is NaN.
+/// Whether a point is missing: it is NaN.
 bool is_missing(const Vector3d& p) { return p.hasNaN(); }
 
 bool is_nan(std::string_view word) {
@@ -261,14 +261,14 @@ double coordinate(ByteCursor& bytes, const Field& field) {
   return value;
 }
 
-/// Where the values of one coordinate are: of the first point, and from point to point.
+/// The place of the values of one coordinate: of the first point, and from point to point.
 struct Column {
   const Field* field = nullptr;
   std::size_t first = 0;   ///< [byte]
   std::size_t stride = 0;  ///< [byte]
 };
 
-/// The columns of points one after the other, or of fields one after the other.
+/// Finds the columns, where points stand one after another, or fields do.
 std::array<Column, 3> find_columns(const Header& header, bool by_fields) {
   std::array<Column, 3> columns;
   std::size_t offset = 0;
@@ -304,7 +304,7 @@ std::vector<Vector3d> read_columns(std::string_view data, const std::string& sou
   return points;
 }
 
-/// [byte]  Of all points; refuses what does not fit a file.
+/// [byte]  Computes the size of all points; refuses a size that does not fit a file.
 std::size_t total_bytes(const Header& header, const ByteCursor& bytes) {
   const std::size_t of_point = header.point_bytes();
   constexpr std::size_t kMost = std::size_t{1} << 40;

@@ -24,13 +24,13 @@ using detail::TextCursor;
 
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 
-/// What a property means to us.
+/// The role of a property.
 enum class Role { other, x, y, z, corners };
 
 struct Property {
   std::string name;
   Type type = Type::f32;
-  std::optional<Type> count_type;  ///< Of a list.
+  std::optional<Type> count_type;  ///< Type of the count of a list.
   Role role = Role::other;
 };
 
@@ -152,7 +152,7 @@ void read_element(TextCursor& text, Header& header) {
   header.elements.push_back(std::move(element));
 }
 
-/// What is asked of a file.
+/// The content that is wanted from a file.
 enum class Wanted { mesh, points };
 
 void check_header(const TextCursor& text, const Header& header, Wanted wanted) {
@@ -175,7 +175,7 @@ void check_header(const TextCursor& text, const Header& header, Wanted wanted) {
   }
 }
 
-/// Leaves the text behind the line feed of end_header.
+/// Reads the header, up to the line feed of end_header.
 Header read_header(TextCursor& text, Wanted wanted) {
   if (text.word() != "ply") {
     text.fail("expected the header 'ply'");
@@ -202,7 +202,7 @@ Header read_header(TextCursor& text, Wanted wanted) {
   }
 }
 
-/// The two kinds of body answer the same calls.
+/// The body of an ASCII file. Both kinds of body have the same functions.
 class AsciiBody {
  public:
   static constexpr MeshBuilder::Place kPlaces = MeshBuilder::Place::line;
@@ -322,7 +322,7 @@ std::uint64_t read_list_size(Body& body, Type type) {
   return static_cast<std::uint64_t>(count);
 }
 
-/// Returns the number of corners.
+/// Reads the corners of a face. Returns their number.
 template <class Body>
 std::uint64_t read_corners(Body& body, MeshBuilder& mesh, const Property& property) {
   const std::uint64_t count = read_list_size(body, *property.count_type);
@@ -337,7 +337,7 @@ std::uint64_t read_corners(Body& body, MeshBuilder& mesh, const Property& proper
   return count;
 }
 
-/// Returns how many faces have no corner.
+/// Reads the items of an element. Returns the number of faces without a corner.
 template <class Body>
 std::uint64_t read_items(Body& body, MeshBuilder& mesh, const Element& element) {
   std::uint64_t empty = 0;
@@ -363,7 +363,7 @@ std::uint64_t read_items(Body& body, MeshBuilder& mesh, const Element& element) 
   return empty;
 }
 
-/// Notes all that is no vertex, coordinate or face.
+/// Notes all properties and elements that are not vertices, coordinates or faces.
 void report_left_out(const Element& element, ReadingLog& log, Wanted wanted) {
   if (element.count == 0 || (element.name == "face" && wanted == Wanted::points)) {
     return;

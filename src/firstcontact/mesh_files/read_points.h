@@ -50,9 +50,9 @@ struct PointReading {
 
 /// Parses XYZ: a point a line, `x y z` and anything after it, between blanks, commas or semicolons.
 ///
-/// `#` begins a comment, as does `//` at the start of a line. Before the points there may be two
-/// lines: one with the names of the columns, of which x, y and z are the first, and one with the
-/// number of points.
+/// `#` begins a comment, as does `//` at the start of a line. Before the points there may be a line
+/// with the names of the columns, of which x, y and z are the first. There may also be a line with
+/// the number of points.
 ///
 /// @throws ParseError  as read_points; also on decimal commas, on files of atoms, and where the
 ///         number of points is another

@@ -20,7 +20,7 @@ using detail::TextCursor;
 
 constexpr std::size_t kHeader = 80;
 constexpr std::size_t kFacet = 50;
-constexpr std::size_t kMoreThanKeyword = 16;  // Longer words are none.
+constexpr std::size_t kMoreThanKeyword = 16;  // Longer words are not keywords.
 
 bool size_fits_count(std::string_view data) {
   if (data.size() < kHeader + 4) {
@@ -30,7 +30,8 @@ bool size_fits_count(std::string_view data) {
   return data.size() - kHeader - 4 == std::uint64_t{bytes.read<std::uint32_t>("")} * kFacet;
 }
 
-/// Some binary files begin with "solid" too, but their count has a zero byte.
+/// Whether data looks like text. Some binary files begin with "solid" too, but their count has a
+/// zero byte.
 bool looks_like_text(std::string_view data) {
   data = detail::without_byte_order_mark(data);
   const std::size_t start = data.find_first_not_of(" \t\r\n\v\f");
@@ -107,7 +108,7 @@ Mesh parse_binary(std::string_view data, ReadingLog& log) {
   return mesh.finish(log);
 }
 
-/// The next word, in lower case, whatever line it is on; empty at the end of the file.
+/// Reads the next word, in lower case, on any line; empty at the end of the file.
 std::string keyword(TextCursor& text) {
   return text.find_line() ? detail::lower(text.word().substr(0, kMoreThanKeyword)) : std::string();
 }
@@ -120,7 +121,7 @@ void expect(TextCursor& text, std::string_view wanted) {
   }
 }
 
-/// The name of a solid goes to the end of the line, or to its first facet there.
+/// Skips the name of a solid: it goes to the end of the line, or to its first facet there.
 void skip_name(TextCursor& text) {
   while (!text.at_line_end()) {
     TextCursor ahead = text;
@@ -131,7 +132,7 @@ void skip_name(TextCursor& text) {
   }
 }
 
-/// A normal is often no number, and is left out: the words of its line, or three on several lines.
+/// Skips a normal, which often is not a number: the words of its line, or three on several lines.
 void skip_normal(TextCursor& text) {
   for (int words = 0; (words < 3 || !text.at_line_end()) && text.find_line(); ++words) {
     TextCursor ahead = text;
@@ -168,8 +169,8 @@ void read_facet(TextCursor& text, MeshBuilder& mesh) {
   expect(text, "endfacet");
 }
 
-/// Reads the facets of a solid to its end, and returns how many solids they were: where the next
-/// begins before the end, nothing is missing; at the end of the file the rest may be cut off.
+/// Reads the facets of a solid to its end, and returns the number of solids. Where the next solid
+/// begins before the end, nothing is missing. At the end of the file the rest may be cut off.
 std::size_t read_facets(TextCursor& text, MeshBuilder& mesh, ReadingLog& log) {
   for (std::size_t solids = 1;;) {
     const bool more = text.find_line();

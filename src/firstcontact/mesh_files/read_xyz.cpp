@@ -28,12 +28,12 @@ struct Line {
   std::size_t number = 0;
 };
 
-/// What stands between the numbers of a line: blanks alone if it is one.
+/// Finds the separator of the numbers of a line; a blank if there is no other.
 char separator_of(std::string_view line) {
   return line.find(';') != line.npos ? ';' : line.find(',') != line.npos ? ',' : ' ';
 }
 
-/// Whether blanks without a comma are between words of the line.
+/// Whether blanks without a comma stand between words of the line.
 bool has_lone_blanks(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (!is_blank(line[i])) {
@@ -54,7 +54,7 @@ class Fields {
  public:
   explicit Fields(std::string_view line) : rest_(line), separator_(separator_of(line)) {}
 
-  /// Nothing at the end of the line.
+  /// Reads the next field; nothing at the end of the line.
   std::optional<std::string_view> next() {
     if (is_at_end_) {
       return std::nullopt;
@@ -117,7 +117,8 @@ class XyzReader {
     }
   }
 
-  /// The first column is neither a number nor "nan" or "inf", which are refused as coordinates.
+  /// Whether the first column is a word: neither a number nor "nan" or "inf", which are refused as
+  /// coordinates.
   static bool starts_with_word(std::string_view line) {
     const std::string first = detail::lower(*Fields(line).next());
     const bool is_number = first == "nan" || first == "inf" || first == "infinity";
@@ -125,7 +126,8 @@ class XyzReader {
            (std::isalpha(static_cast<unsigned char>(first[0])) != 0 || first[0] == '"');
   }
 
-  /// The xyz files of chemistry have a number of atoms, a title, and lines of a symbol and a place.
+  /// Refuses the xyz files of chemistry: they have a number of atoms, a title, and lines of a
+  /// symbol and a place.
   void check_no_atoms(const Line& line) const {
     if (count_) {
       fail(line, "expected coordinates after the number of points, got " +
@@ -134,7 +136,7 @@ class XyzReader {
     }
   }
 
-  /// Names of columns have to begin with x, y and z; a comment may have no names.
+  /// Checks names of columns: they have to begin with x, y and z; a comment may have no names.
   void check_names(const Line& line, std::string_view text, bool is_comment) const {
     std::vector<std::string> names;
     Fields fields(detail::trimmed(text));
@@ -155,7 +157,7 @@ class XyzReader {
     }
   }
 
-  /// A line of one whole number, before the points, is their number.
+  /// Whether a line, before the points, is one whole number: the number of points.
   bool is_count(const Line& line) {
     if (line.text.find_first_not_of("0123456789") != line.text.npos) {
       return false;

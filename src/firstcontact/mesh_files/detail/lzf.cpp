@@ -3,7 +3,7 @@
 namespace firstcontact::detail {
 
 std::optional<std::string> expand_lzf(std::string_view data, std::size_t size) {
-  // A byte pair expands to 264 bytes at most: no room is taken that the data cannot fill.
+  // A byte pair expands to 264 bytes at most: no memory is reserved that the data cannot fill.
   if (size / 132 > data.size()) {
     return {};
   }

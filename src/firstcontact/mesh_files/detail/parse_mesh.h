@@ -1,5 +1,5 @@
 /// @file
-/// The readers of meshes and clouds in memory, with notes on what became of the text.
+/// The readers of meshes and clouds in memory, with notes about the text.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace firstcontact::detail {
 
-// Each is as the public function of its name (read_mesh.h, read_points.h), and notes in the log
-// what it counts, leaves out and warns of. What it refuses may stand in the log alone: see
+// Each is as the public function of its name (read_mesh.h, read_points.h), and notes in the log its
+// counts, warnings and parts that it leaves out. A refusal may stand in the log alone: see
 // ReadingLog::throw_errors().
 
 [[nodiscard]] Mesh parse_obj(std::string_view text, ReadingLog& log);
@@ -26,10 +26,10 @@ namespace firstcontact::detail {
 [[nodiscard]] std::vector<Eigen::Vector3d> parse_ply_points(std::string_view data, ReadingLog& log);
 [[nodiscard]] std::vector<Eigen::Vector3d> parse_xyz(std::string_view text, ReadingLog& log);
 
-/// Reads in memory, without a report.
+/// Parses a text in memory, without a report.
 ///
 /// @param parse  one of the above
-/// @throws ParseError  also for what the log alone has
+/// @throws ParseError  also for refusals that stand in the log alone
 template <class Parse>
 [[nodiscard]] auto parse_unlogged(Parse parse, std::string_view text, const std::string& source) {
   ReadingLog log(source, {});
