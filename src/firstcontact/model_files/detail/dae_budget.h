@@ -1,5 +1,5 @@
 /// @file
-/// How much work a COLLADA document may make.
+/// A bound of the work that a COLLADA document may cause.
 
 #pragma once
 
@@ -10,16 +10,18 @@
 
 namespace firstcontact::detail {
 
-/// Bounds what a small file can unfold to: nodes that instance nodes double with every level.
+/// Bounds the work of a small file: nodes that instance nodes double with every level.
 class DaeBudget {
  public:
-  /// @param bytes  the size of the file: what it states itself is never refused
+  /// Makes a budget.
+  ///
+  /// @param bytes  the size of the file; nothing that the file states itself is refused
   explicit DaeBudget(std::size_t bytes);
 
-  /// Takes `work` nodes, corners, vertices or influences.
+  /// Spends the work of `work` nodes, corners, vertices or influences.
   ///
   /// @param where  for the error
-  /// @throws ParseError  more than the file may unfold to
+  /// @throws ParseError  the document unfolds to more than it may
   void spend(const DaeDocument& document, const XmlElement& where, std::uint64_t work);
 
  private:

@@ -17,7 +17,7 @@ bool holds(std::initializer_list<std::string_view> names, std::string_view name)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Under which kind an element is found; empty for those that nothing refers to.
+/// Finds the kind under which an element is indexed; empty for those that nothing refers to.
 std::string_view kind_of(std::string_view name) {
   if (name.ends_with("_array")) {
     return "array";
@@ -31,7 +31,7 @@ std::string key_of(std::string_view kind, std::string_view id) {
   return std::string(kind) + "#" + std::string(id);
 }
 
-/// The next element in the order of the document, or null.
+/// Finds the next element in the order of the document, or null.
 const XmlElement* next_in_document(const XmlElement& element) {
   if (const XmlElement* child = element.FirstChildElement()) {
     return child;
@@ -135,7 +135,7 @@ std::string_view DaeDocument::reference(const XmlElement& where, const char* att
   return text.substr(1);
 }
 
-/// Some writers have %20 for a space in references, and the space in ids.
+/// Finds an element by id. Some writers have %20 for a space in references, and the space in ids.
 const DaeDocument::Named* DaeDocument::named(std::string_view id, std::string_view kind) const {
   auto known = by_id_.find(key_of(kind, id));
   if (known == by_id_.end()) {
@@ -192,7 +192,7 @@ const XmlElement& DaeDocument::find_in(const XmlElement& scope, const XmlElement
 }
 
 void DaeDocument::leave_out_profile(const XmlElement& element) const {
-  // A list of so many names helps nobody, and notes are looked through for each.
+  // A longer list of names is of no use, and each takes a search through the notes.
   constexpr std::size_t kMostProfiles = 32;
   const auto note = [&](const XmlElement& technique) {
     const char* const profile = technique.Attribute("profile");

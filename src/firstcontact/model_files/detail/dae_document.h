@@ -1,5 +1,5 @@
 /// @file
-/// A COLLADA document: its elements by id, and the rules for what stands beside them.
+/// A COLLADA document: its elements by id, and the rules for all other elements.
 
 #pragma once
 
@@ -15,16 +15,20 @@
 
 namespace firstcontact::detail {
 
-/// Children of one name that make no contact, and why.
+/// Children of one name that make no contact, and the reason.
 struct DaePassedOver {
   std::string_view name;
   std::string_view reason;
 };
 
+/// A COLLADA document.
+///
 /// Source: M. Barnes, E. Levy Finch (eds.), "COLLADA – Digital Asset Schema Release 1.4.1" and
 /// "1.5.0", Khronos Group 2008.
 class DaeDocument {
  public:
+  /// Parses a document.
+  ///
   /// @throws ParseError  no XML, or no <COLLADA>
   DaeDocument(std::string_view bytes, ReadingLog& log);
 
@@ -32,7 +36,7 @@ class DaeDocument {
   [[nodiscard]] ReadingLog& log() const { return log_; }
   [[nodiscard]] const XmlElement& root() const { return root_; }
 
-  /// The element that a reference "#id" names.
+  /// Finds the element that a reference "#id" names.
   ///
   /// @param attribute  of `where`, holds the reference
   /// @param kind       the element's name; "array" for each kind of array
@@ -40,7 +44,7 @@ class DaeDocument {
   [[nodiscard]] const XmlElement& find(const XmlElement& where, const char* attribute,
                                        std::string_view kind) const;
 
-  /// As find(); of several elements with this id the child of `scope` is meant.
+  /// Finds an element as find(); among several elements with this id, the child of `scope`.
   [[nodiscard]] const XmlElement& find_in(const XmlElement& scope, const XmlElement& where,
                                           const char* attribute, std::string_view kind) const;
 
@@ -48,20 +52,20 @@ class DaeDocument {
   [[nodiscard]] bool names(const XmlElement& where, const char* attribute,
                            const XmlElement& element) const;
 
-  /// The element of this kind and id; null where there is none, or several.
+  /// Finds the element of this kind and id; null where there is none, or several.
   [[nodiscard]] const XmlElement* find_id(std::string_view id, std::string_view kind) const;
 
   [[noreturn]] void fail(const XmlElement& where, const std::string& message) const {
     xml_.fail(where, message);
   }
 
-  /// For what could hold or place geometry; see ReadingLog::refuse().
+  /// Refuses an element that could hold or place geometry; see ReadingLog::refuse().
   ///
-  /// @param cause  what such errors have in common; the message where it is empty
+  /// @param cause  the common cause of such errors; the message where it is empty
   void refuse(const XmlElement& where, const std::string& message,
               std::string_view cause = {}) const;
 
-  /// Looks at the children that the caller does not take: notes those that are passed over, and
+  /// Checks the children that the caller does not take. Notes those that are passed over, and
   /// <extra> and <technique>; refuses others. An <asset> must not change the unit or the axes.
   void check_children(const XmlElement& element, std::initializer_list<std::string_view> taken,
                       std::initializer_list<DaePassedOver> passed_over = {}) const;

@@ -18,7 +18,7 @@ void refuse_hull_of_another(const DaeDocument& document, const XmlElement& mesh)
   }
 }
 
-/// The <mesh> or <convex_mesh> of a geometry.
+/// Finds the <mesh> or <convex_mesh> of a geometry.
 const XmlElement& mesh_of(const DaeDocument& document, const XmlElement& geometry) {
   const XmlElement* mesh = nullptr;
   for (const XmlElement* child = geometry.FirstChildElement(); child != nullptr;

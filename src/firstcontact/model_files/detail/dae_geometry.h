@@ -15,23 +15,23 @@
 
 namespace firstcontact::detail {
 
-/// Reads each geometry once, however often it is placed.
+/// Reads each geometry once, even where it is placed several times.
 class DaeGeometries {
  public:
   explicit DaeGeometries(const DaeDocument& document) : document_(document) {}
 
-  /// The polygons of all primitives, with corners below the number of positions.
+  /// Reads the polygons of all primitives, with corners below the number of positions.
   ///
   /// @param geometry  a <geometry>
-  /// @throws ParseError  curves and other kinds of geometry, and what is malformed
+  /// @throws ParseError  curves and other kinds of geometry, and malformed geometries
   [[nodiscard]] const std::vector<DaePolygons>& polygons(const XmlElement& geometry);
 
-  /// The rows of the source of POSITION; not all of them need be finite.
+  /// Reads the rows of the source of POSITION; not all of them need be finite.
   ///
   /// @throws ParseError  as polygons()
   [[nodiscard]] const std::vector<Eigen::Vector3d>& positions(const XmlElement& geometry);
 
-  /// How many geometries were read.
+  /// Counts the geometries that were read.
   [[nodiscard]] std::size_t size() const { return polygons_.size(); }
 
  private:

@@ -26,7 +26,7 @@ std::vector<const XmlElement*> DaeJointFinder::skeletons(const XmlElement& insta
 }
 
 const DaeJointFinder::Subtree& DaeJointFinder::subtree(const XmlElement& root) {
-  // What a node costs in memory here, in what a corner costs in a mesh.
+  // The memory of a node here, in units of the memory of a corner in a mesh.
   constexpr std::size_t kWork = 64;
   const auto [known, is_new] = subtrees_.try_emplace(&root);
   Subtree& found = known->second;

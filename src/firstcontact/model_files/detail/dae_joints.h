@@ -19,23 +19,23 @@ namespace firstcontact::detail {
 /// Finds joints by the sid that a skin has for them.
 ///
 /// The search is below the <skeleton>s of its instance, then in the whole scene. Where there is no
-/// such sid, it is by id and by name, as some writers do. Nodes nearer to the roots are found
-/// first.
+/// such sid, the search is by id and by name, as some writers do. Nodes nearer to the roots are
+/// found first.
 class DaeJointFinder {
  public:
   DaeJointFinder(const DaeDocument& document, const DaeScene& scene, DaeBudget& budget)
       : document_(document), scene_(scene), budget_(budget) {}
 
-  /// The roots below which the joints of an <instance_controller> are sought, in order.
+  /// Lists the roots below which the joints of an <instance_controller> are searched, in order.
   ///
   /// @throws ParseError  a <skeleton> that names no node
   [[nodiscard]] std::vector<const XmlElement*> skeletons(const XmlElement& instance) const;
 
-  /// The map from a joint's frame to the world's.
+  /// Finds the map from a joint's frame to the world's.
   ///
-  /// @param by_id     the name is an id
+  /// @param by_id     whether the name is an id
   /// @param instance  for errors
-  /// @throws ParseError  not in the scene, or several times
+  /// @throws ParseError  the joint is not in the scene, or several times
   [[nodiscard]] Eigen::Affine3d pose(const std::string& name, bool by_id,
                                      const std::vector<const XmlElement*>& skeletons,
                                      const XmlElement& instance);
@@ -47,6 +47,8 @@ class DaeJointFinder {
     std::unordered_map<std::string_view, const XmlElement*> by_name;
   };
 
+  /// Lists the nodes below a root.
+  ///
   /// @param root  a <node>, or the <visual_scene>
   const Subtree& subtree(const XmlElement& root);
   [[nodiscard]] const XmlElement* find(const std::string& name, bool by_id,

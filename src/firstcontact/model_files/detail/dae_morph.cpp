@@ -21,7 +21,7 @@ bool is_relative(const DaeDocument& document, const XmlElement& morph) {
   return method == "RELATIVE";
 }
 
-/// The source of an input of <targets>.
+/// Finds the source of an input of <targets>.
 const XmlElement& target_source(const DaeDocument& document, const XmlElement& morph,
                                 std::string_view semantic) {
   const XmlElement& targets = document.xml().required_child(morph, "targets");

@@ -13,14 +13,14 @@
 
 namespace firstcontact::detail {
 
-/// The base geometry of a <morph>.
+/// Finds the base geometry of a <morph>.
 [[nodiscard]] const XmlElement& dae_morph_base(const DaeDocument& document,
                                                const XmlElement& morph);
 
 /// Reads the positions of the base geometry, morphed by its targets.
 ///
 /// They are b (1 - sum of w_i) + sum of w_i t_i where the method is NORMALIZED, b + sum of w_i t_i
-/// where it is RELATIVE. Targets of weight 0 are not looked at.
+/// where it is RELATIVE. Targets of weight 0 are not read.
 ///
 /// Source: "COLLADA – Digital Asset Schema Release 1.4.1", <morph>.
 ///

@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kDrawing = "a drawing: it bounds no body";
 
-/// Which of the interleaved indices names the vertex.
+/// The position of the vertex among the interleaved indices.
 struct IndexLayout {
   std::uint64_t vertex = 0;
   std::uint64_t stride = 1;  ///< Indices of each corner.
 };
 
-/// The one input that places corners.
+/// Finds the one input that places corners.
 const XmlElement& vertex_input(const DaeDocument& document, const XmlElement* vertices,
                                const XmlElement& primitive,
                                const std::vector<const XmlElement*>& inputs) {
@@ -71,7 +71,7 @@ std::size_t append_corners(const DaeDocument& document, const XmlElement& list,
   const XmlText text = document.xml().content(list);
   TextCursor cursor(text.view(), document.xml().source(), {}, text.line());
   const std::size_t before = corners.size();
-  std::uint64_t at = 0;  // In the corner.
+  std::uint64_t at = 0;  // Position in the corner.
   while (cursor.find_line()) {
     const std::int64_t index = cursor.integer("an index, a whole number,");
     if (at == layout.vertex) {
@@ -101,7 +101,7 @@ class PrimitiveReader {
                   const XmlElement& primitive)
       : document_(document), vertices_(vertices), primitive_(primitive) {}
 
-  /// Nothing for one that is empty.
+  /// Reads the primitive; nothing for an empty one.
   [[nodiscard]] std::optional<DaePolygons> read() {
     result_.element = &primitive_;
     document_.check_children(primitive_, {"input", "p", "ph", "vcount"});
@@ -120,7 +120,7 @@ class PrimitiveReader {
   }
 
  private:
-  /// Without indices nothing may count some.
+  /// Refuses counts in a primitive without indices.
   void expect_none() const {
     if (document_.xml().whole_number(primitive_, "count", 0) != 0) {
       expect_count(0);
@@ -228,7 +228,7 @@ class PrimitiveReader {
     }
   }
 
-  /// Leaves out those of less than three corners.
+  /// Leaves out polygons of less than three corners.
   void keep_polygons(const std::vector<DaeRing>& rings) {
     auto from = result_.corners.begin();
     auto to = from;
@@ -264,7 +264,7 @@ class PrimitiveReader {
   }
 
   const DaeDocument& document_;
-  const XmlElement* vertices_;  ///< Of the mesh; null if it has none.
+  const XmlElement* vertices_;  ///< The <vertices> of the mesh; null if it has none.
   const XmlElement& primitive_;
   IndexLayout layout_;
   DaePolygons result_;

@@ -88,9 +88,9 @@ DaeNode& DaeScene::enter(const XmlElement& element, const Eigen::Affine3d& X_WP)
 
 void DaeScene::walk(const XmlElement& root) {
   struct Step {
-    DaeNode* node = nullptr;  // The map keeps its elements where they are.
+    DaeNode* node = nullptr;  // The map does not move its elements.
     Eigen::Affine3d X_WN;
-    std::size_t next = 0;  // Of the children.
+    std::size_t next = 0;  // Index of the next child.
   };
   std::vector<Step> path;
   const auto step_into = [&](const XmlElement& element, const Eigen::Affine3d& X_WP) {

@@ -1,5 +1,6 @@
 /// @file
-/// The visual scene of a COLLADA document: its nodes with their poses, and what they place.
+/// The visual scene of a COLLADA document: its nodes with their poses, and the geometry that they
+/// place.
 
 #pragma once
 
@@ -24,10 +25,11 @@ struct DaePlacement {
 struct DaeNode {
   std::vector<const XmlElement*> placed;               ///< Instances of geometries and controllers.
   std::vector<const XmlElement*> children;             ///< Nodes inside, then instanced ones.
-  Eigen::Affine3d X_PN = Eigen::Affine3d::Identity();  ///< To its parent's frame.
-  Eigen::Affine3d X_WN = Eigen::Affine3d::Identity();  ///< To the world's; of its first instance.
-  std::size_t times = 0;                               ///< How often the scene holds it.
-  bool open = false;                                   ///< On the path to the node at hand.
+  Eigen::Affine3d X_PN = Eigen::Affine3d::Identity();  ///< Map to the parent's frame.
+  /// Map to the world's frame, for its first instance.
+  Eigen::Affine3d X_WN = Eigen::Affine3d::Identity();
+  std::size_t times = 0;  ///< How often the scene contains it.
+  bool open = false;      ///< Whether it is on the path to the current node.
 };
 
 /// The scene that <scene> instances, in metres, with the axes of the file.
@@ -35,16 +37,16 @@ class DaeScene {
  public:
   /// Reads the scene of a document.
   ///
-  /// @throws ParseError  no scene, a node inside of itself, an element that is not known, and as
+  /// @throws ParseError  no scene, a node inside of itself, an unknown element, and as
   ///         read_dae_transform()
   DaeScene(const DaeDocument& document, DaeBudget& budget);
 
   [[nodiscard]] const XmlElement& element() const { return *scene_; }
 
-  /// In the order of a walk that goes deep first.
+  /// The placements, in the order of a depth-first walk.
   [[nodiscard]] const std::vector<DaePlacement>& placements() const { return placements_; }
 
-  /// The node of an element <node>, or null if the scene does not hold it.
+  /// Finds the node of an element <node>, or null if the scene does not contain it.
   [[nodiscard]] const DaeNode* node(const XmlElement& element) const;
 
  private:
@@ -55,7 +57,7 @@ class DaeScene {
   const DaeDocument& document_;
   DaeBudget& budget_;
   const XmlElement* scene_ = nullptr;
-  Eigen::Affine3d X_WS_;  ///< The unit.
+  Eigen::Affine3d X_WS_;  ///< Map by the unit.
   std::vector<DaePlacement> placements_;
   std::unordered_map<const XmlElement*, DaeNode> nodes_;
 };

@@ -26,7 +26,7 @@ struct Input {
   const XmlElement* source = nullptr;
 };
 
-/// The one input of this semantic inside of an element of the skin.
+/// Finds the one input of this semantic inside of an element of the skin.
 Input required_input(const DaeDocument& document, const XmlElement& skin, const XmlElement& parent,
                      std::string_view semantic) {
   Input found;
@@ -46,7 +46,7 @@ Input required_input(const DaeDocument& document, const XmlElement& skin, const 
   return found;
 }
 
-/// The joints of a skin, and where they take what is bound to them.
+/// The joints of a skin, with their maps of bound vertices.
 class SkinJoints {
  public:
   SkinJoints(const DaeDocument& document, DaeJointFinder& finder, const XmlElement& instance,
@@ -75,8 +75,8 @@ class SkinJoints {
   [[nodiscard]] std::size_t size() const { return names_.names.size(); }
   [[nodiscard]] const XmlElement& source() const { return *joints_.source; }
 
-  /// From the geometry's frame to the world's, of a joint or of the bind shape (-1). Joints that no
-  /// vertex needs may be missing.
+  /// Finds the map from the geometry's frame to the world's, for a joint or for the bind shape
+  /// (-1). Joints that no vertex needs may be missing.
   const Affine3d& map(std::int64_t joint) {
     if (joint < 0) {
       return X_shape_;
@@ -111,7 +111,7 @@ class SkinJoints {
   std::vector<std::optional<Affine3d>> maps_;
 };
 
-/// The weights of all vertices, taken one after the other.
+/// Reads the weights of all vertices, one after another.
 class InfluenceReader {
  public:
   InfluenceReader(const DaeDocument& document, DaeBudget& budget, const XmlElement& skin,
@@ -145,7 +145,7 @@ class InfluenceReader {
     }
   }
 
-  /// The sum of the weighted places of a point, and that of its weights.
+  /// The sum of the weighted places of a point, and the sum of its weights.
   struct Mean {
     Vector3d sum = Vector3d::Zero();
     double weight = 0.0;

@@ -16,7 +16,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// How rows are taken from an array.
+/// The layout of rows in an array.
 struct Accessor {
   const XmlElement* element = nullptr;
   const XmlElement* array = nullptr;
@@ -80,7 +80,7 @@ void check_count(const DaeDocument& document, const XmlElement& array, std::uint
   }
 }
 
-/// A number, or NaN for what writers have in the place of one that is not finite.
+/// Parses a number; NaN for the words that writers have for numbers that are not finite.
 std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) {
     word.remove_prefix(1);
@@ -120,7 +120,7 @@ std::vector<double> read_array(const DaeDocument& document, const XmlElement& ar
   return values;
 }
 
-/// The places of X, Y and Z in a row.
+/// Finds the positions of X, Y and Z in a row.
 std::array<std::size_t, 3> places_of_axes(const DaeDocument& document, const Accessor& accessor) {
   const auto& names = accessor.parameters;
   if (std::all_of(names.begin(), names.end(), [](std::string_view n) { return n.empty(); })) {

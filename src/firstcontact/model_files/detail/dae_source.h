@@ -1,5 +1,5 @@
 /// @file
-/// The sources of a COLLADA document: arrays of values and how rows are taken from them.
+/// The sources of a COLLADA document: arrays of values, and the rows in them.
 
 #pragma once
 
@@ -13,17 +13,18 @@
 
 namespace firstcontact::detail {
 
-/// Points by the parameters X, Y and Z in any order, or by the first three where none is named.
+/// Reads points by the parameters X, Y and Z in any order, or by the first three where none is
+/// named.
 ///
-/// Words for what is no finite number ("NaN", "-1.#IND", "INF") are taken: only points that
-/// something uses have to be finite.
+/// Words for numbers that are not finite ("NaN", "-1.#IND", "INF") are accepted: only points that
+/// are used have to be finite.
 ///
 /// @throws ParseError  rows that the array does not have, other parameters, words that are no
 ///         numbers, a count that contradicts the array
 [[nodiscard]] std::vector<Eigen::Vector3d> read_dae_points(const DaeDocument& document,
                                                            const XmlElement& source);
 
-/// Rows of `width` numbers, one after the other.
+/// Reads rows of `width` numbers, one after another.
 ///
 /// @throws ParseError  as read_dae_points
 [[nodiscard]] std::vector<double> read_dae_numbers(const DaeDocument& document,
@@ -32,9 +33,11 @@ namespace firstcontact::detail {
 /// Names of joints or geometries.
 struct DaeNames {
   std::vector<std::string> names;
-  bool ids = false;  ///< Names are ids of the document, not sids.
+  bool ids = false;  ///< Whether names are ids of the document, not sids.
 };
 
+/// Reads names.
+///
 /// @throws ParseError  as read_dae_points
 [[nodiscard]] DaeNames read_dae_names(const DaeDocument& document, const XmlElement& source);
 

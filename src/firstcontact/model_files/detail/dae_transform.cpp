@@ -20,7 +20,7 @@ struct SineCosine {
   double cosine = 1.0;
 };
 
-/// Exact at multiples of a quarter turn, where writers mean 0 and 1.
+/// Computes sine and cosine, exactly at multiples of a quarter turn, where writers mean 0 and 1.
 SineCosine sine_cosine_of_degrees(double degrees) {
   const double rest = std::remainder(degrees, 360.0);  // Exact, in [-180, 180].
   if (std::remainder(rest, 90.0) == 0.0) {
@@ -30,7 +30,7 @@ SineCosine sine_cosine_of_degrees(double degrees) {
   return {std::sin(rest * kRadiansPerDegree), std::cos(rest * kRadiansPerDegree)};
 }
 
-/// A finite vector of a length > 0, scaled to 1.
+/// Scales a finite vector of a length > 0 to length 1.
 Vector3d unit_vector(const DaeDocument& document, const XmlElement& where, const Vector3d& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) {
@@ -41,12 +41,12 @@ Vector3d unit_vector(const DaeDocument& document, const XmlElement& where, const
   return norm == 1.0 ? scaled : scaled / norm;
 }
 
-/// Derivation: R = cos I + sin [u]x + (1 - cos) u u^T (Rodrigues).
+/// Makes a rotation. Derivation: R = cos I + sin [u]x + (1 - cos) u u^T (Rodrigues).
 Affine3d rotation(const DaeDocument& document, const XmlElement& where,
                   const std::vector<double>& v) {
   const SineCosine turn = sine_cosine_of_degrees(v[3]);
   if (turn.sine == 0.0 && turn.cosine == 1.0) {
-    return Affine3d::Identity();  // Some writers have no axis then.
+    return Affine3d::Identity();  // Some writers give no axis then.
   }
   const Vector3d u = unit_vector(document, where, {v[0], v[1], v[2]});
   Matrix3d cross;

@@ -15,7 +15,7 @@ constexpr std::string_view kMagic = "glTF";
 constexpr std::uint32_t kJson = 0x4e4f534a;    // "JSON"
 constexpr std::uint32_t kBinary = 0x004e4942;  // "BIN" and a zero
 
-/// The bytes from the header's end to where its length says that the file ends.
+/// Finds the bytes from the header's end to the file's end by its stated length.
 std::string_view chunks_of(std::string_view bytes, ReadingLog& log) {
   ByteCursor cursor(bytes, log.path(), /*big_endian=*/false);
   cursor.skip(kMagic.size(), "the header 'glTF'");
@@ -43,13 +43,13 @@ std::string_view chunks_of(std::string_view bytes, ReadingLog& log) {
   return bytes.substr(cursor.offset(), length - cursor.offset());
 }
 
-/// A document of text is an object, perhaps after blanks and a mark of the byte order.
+/// Whether bytes are a document of text: an object, perhaps after blanks and a byte order mark.
 bool looks_like_json(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   return first != std::string_view::npos && bytes[first] == '{';
 }
 
-/// Some writers fill up the text with zeros in place of spaces.
+/// Removes zeros at the end: some writers pad the text with zeros in place of spaces.
 std::string_view without_zeros_at_end(std::string_view text) {
   const std::size_t last = text.find_last_not_of('\0');
   return text.substr(0, last == std::string_view::npos ? 0 : last + 1);

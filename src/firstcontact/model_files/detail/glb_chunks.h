@@ -13,10 +13,13 @@ namespace firstcontact::detail {
 /// The parts of a glTF file, as views into its bytes.
 struct GlbChunks {
   std::string_view json;
-  std::optional<std::string_view> binary;  ///< The first buffer of the document, if it is inside.
+  /// The first buffer of the document, if the file contains it.
+  std::optional<std::string_view> binary;
 };
 
-/// The chunks of a GLB file of version 2. Chunks of other types are left out, as the standard says.
+/// Splits a GLB file of version 2 into its chunks. Chunks of other types are left out, as the
+/// standard demands.
+///
 /// Bytes that begin as JSON does are a document of text: all of them are JSON.
 ///
 /// Source: Khronos Group, "glTF 2.0 Specification", 4 (GLB file format).

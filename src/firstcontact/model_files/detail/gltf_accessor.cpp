@@ -27,10 +27,10 @@ double whole_or_share(const char* bytes, bool normalized) {
   return normalized ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
 }
 
-/// An accessor without bytes may have so many rows in a file of any size.
+/// [rows]  Greatest number of rows of an accessor without bytes in a small file.
 constexpr std::size_t kMostZeros = std::size_t{1} << 20;
 
-/// The numbers in a row of each type.
+/// Counts the numbers in a row of each type.
 std::size_t columns_of(std::string_view type) {
   return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
 }

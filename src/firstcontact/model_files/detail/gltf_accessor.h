@@ -26,24 +26,24 @@ enum class GltfNumber : std::uint16_t {
   float32 = 5126
 };
 
-/// [byte]  The size of a number of this type.
+/// [byte]  Computes the size of a number of this type.
 [[nodiscard]] std::size_t size_of(GltfNumber type);
 
 /// Rows of numbers in bytes, little-endian.
 struct GltfRows {
   std::string_view bytes;  ///< The first row begins at the first byte; all rows are inside.
-  std::size_t stride = 0;  ///< [byte]  From one row to the next.
+  std::size_t stride = 0;  ///< [byte]  Distance from one row to the next.
   GltfNumber type = GltfNumber::float32;
-  bool normalized = false;  ///< Integers stand for shares of the greatest one.
+  bool normalized = false;  ///< Whether integers stand for fractions of the greatest one.
 
-  /// A number as a double: exact for floats and plain integers.
+  /// Reads a number as a double: exact for floats and plain integers.
   ///
-  /// A normalised one is the quotient c / 127, c / 255, c / 32767 or c / 65535, rounded once (and
-  /// not below -1).
+  /// A normalised number is the quotient c / 127, c / 255, c / 32767 or c / 65535, rounded once,
+  /// and not below -1.
   [[nodiscard]] double at(std::size_t row, std::size_t column) const;
 };
 
-/// One accessor. Its numbers are taken out of the bytes when they are asked for.
+/// One accessor. Its numbers are read from the bytes when they are needed.
 class GltfAccessor {
  public:
   /// @param columns  numbers in a row: 1 for SCALAR, 3 for VEC3, 16 for MAT4
@@ -57,10 +57,10 @@ class GltfAccessor {
   /// Whether the numbers stand in bytes. Otherwise they are zeros, except for sparse ones.
   [[nodiscard]] bool has_bytes() const { return base_.stride > 0; }
 
-  /// A number of a row below count().
+  /// Reads a number of a row below count().
   [[nodiscard]] double at(std::size_t row, std::size_t column) const;
 
-  /// The first three numbers of a row.
+  /// Reads the first three numbers of a row.
   [[nodiscard]] Eigen::Vector3d vector3(std::size_t row) const;
 
  private:
@@ -73,7 +73,7 @@ class GltfAccessor {
     GltfRows values;
   };
 
-  /// Where a row stands: in the base or among the sparse ones.
+  /// The place of a row: in the base or among the sparse ones.
   struct Row {
     const GltfRows* rows;
     std::size_t row;
@@ -89,20 +89,24 @@ class GltfAccessor {
 /// The properties that an accessor must have in its place.
 struct GltfExpected {
   std::string_view type;  ///< "VEC3"
-  bool floats = true;     ///< Whether floats are right.
-  bool integers =
-      false;  ///< Whether unsigned integers are right, with signed ones where floats are.
+  bool floats = true;     ///< Whether floats are accepted.
+  /// Whether unsigned integers are accepted, and signed ones where floats are accepted, too.
+  bool integers = false;
 };
 
 /// The accessors of a document.
 class GltfAccessorReader {
  public:
+  /// Prepares the reading of accessors.
+  ///
   /// @param buffers    outlives this
-  /// @param file_size  [byte]  of the document; an accessor without bytes has no more rows than it
-  ///                   (or 2^20), as nothing else backs its count
+  /// @param file_size  [byte]  of the document. An accessor without bytes has at most as many rows
+  ///         (or 2^20), as its count has no other support
   GltfAccessorReader(const GltfDocument& document, GltfBuffers& buffers, std::size_t file_size)
       : document_(document), buffers_(buffers), file_size_(file_size) {}
 
+  /// Reads an accessor.
+  ///
   /// @param value  an index of accessors
   /// @throws ParseError  an index out of range, another type than expected, rows past the end of
   ///         the bytes, sparse indices that do not ascend

@@ -11,7 +11,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Whether the bytes of a buffer are only the place for what a compressed view expands to.
+/// Whether a buffer has no bytes of its own, but is the target of a compressed view.
 bool is_fallback(const GltfDocument& document, const JsonObject& buffer) {
   for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     const JsonValue* const extension = document.extension(buffer, name);

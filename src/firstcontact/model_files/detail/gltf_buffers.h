@@ -19,13 +19,11 @@ namespace firstcontact::detail {
 /// Part of a buffer.
 struct GltfBufferView {
   std::string_view bytes;
-  std::optional<std::size_t> stride;  ///< [byte]  Between elements; where missing, they are packed.
+  std::optional<std::size_t> stride;  ///< [byte]  Distance between elements; packed where missing.
 };
 
-/// The buffers of a document, each read at its first use, so that one that only looks need may be
-/// missing.
-///
-/// Files are mapped, not copied.
+/// The buffers of a document. Each is read at its first use, so a buffer that serves only the looks
+/// may be missing. Files are mapped, not copied.
 class GltfBuffers {
  public:
   /// @param document  outlives this
@@ -41,7 +39,7 @@ class GltfBuffers {
   ///         buffer shorter than it states, a view past the end of its buffer, compressed bytes
   [[nodiscard]] GltfBufferView view(const JsonValue& value);
 
-  /// [byte]  All that was read for the document by now, beside the document itself.
+  /// [byte]  The size of all that was read for the document so far, beside the document itself.
   [[nodiscard]] std::size_t size_read() const { return size_read_; }
 
  private:

@@ -17,8 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 7> kArrayNames = {
     "accessors", "bufferViews", "buffers", "meshes", "nodes", "scenes", "skins"};
 
-/// The keys of each kind of object, in the order of GltfObject; "name", "extensions" and "extras"
-/// may stand in all.
+/// Lists the keys of each kind of object, in the order of GltfObject. All may have "name",
+/// "extensions" and "extras".
 const std::array<std::vector<std::string_view>, 11>& keys_of_kinds() {
   static const std::array<std::vector<std::string_view>, 11> keys = {{
       {"bufferView", "byteOffset", "componentType", "count", "max", "min", "normalized", "sparse",

@@ -1,5 +1,5 @@
 /// @file
-/// The JSON document of a glTF file: its arrays, and what stands in their objects.
+/// The JSON document of a glTF file: its arrays, and the keys of their objects.
 
 #pragma once
 
@@ -19,7 +19,7 @@ namespace firstcontact::detail {
 /// The arrays at the root of a document to which other values point by index.
 enum class GltfArray { accessors, buffer_views, buffers, meshes, nodes, scenes, skins };
 
-/// The objects whose keys are looked at.
+/// The objects whose keys are checked.
 enum class GltfObject {
   accessor,
   buffer,
@@ -34,8 +34,9 @@ enum class GltfObject {
   sparse_part
 };
 
-/// A glTF 2.0 document. Functions throw ParseError, with line and place, where a value is not what
-/// the standard says.
+/// A glTF 2.0 document.
+///
+/// Functions throw ParseError, with line and place, where a value violates the standard.
 ///
 /// Source: Khronos Group, "glTF 2.0 Specification", 5 (properties reference).
 class GltfDocument {
@@ -48,13 +49,13 @@ class GltfDocument {
   [[nodiscard]] const JsonObject& root() const { return object(root_); }
   [[nodiscard]] ReadingLog& log() const { return log_; }
 
-  /// The elements of an array at the root; none if the document does not have it.
+  /// Finds the elements of an array at the root; none if the document does not have it.
   [[nodiscard]] const JsonArray& all(GltfArray which) const;
 
-  /// An index of an element that the document has.
+  /// Reads an index of an element that the document has.
   [[nodiscard]] std::size_t index(const JsonValue& value, GltfArray of) const;
 
-  /// The whole number of a key, from 0 to 2^53; `otherwise` if the key is missing.
+  /// Reads the whole number of a key, from 0 to 2^53; `otherwise` if the key is missing.
   [[nodiscard]] std::uint64_t whole(const JsonObject& object, std::string_view key,
                                     std::uint64_t otherwise) const;
 
@@ -62,11 +63,11 @@ class GltfDocument {
   [[nodiscard]] const JsonArray& array(const JsonValue& value) const;
   [[nodiscard]] const JsonReader& reader() const { return reader_; }
 
-  /// An extension of an object; null if it has none of this name.
+  /// Finds an extension of an object; null if it has none of this name.
   [[nodiscard]] const JsonValue* extension(const JsonObject& object, std::string_view name) const;
 
-  /// An object whose keys and extensions are known. Others are refused where they could hold or
-  /// place geometry, and are warnings elsewhere.
+  /// Checks that the keys and extensions of an object are known. Others are refused where they
+  /// could hold or place geometry, and are warnings elsewhere.
   ///
   /// @param place  the object's own: "nodes[2]"
   [[nodiscard]] const JsonObject& checked(const JsonValue& value, GltfObject kind,
@@ -76,7 +77,7 @@ class GltfDocument {
     reader_.fail(where, message);
   }
 
-  /// Notes what is not understood; an error, unless the options are lenient.
+  /// Notes an element that is not understood; an error, unless the options are lenient.
   void refuse(const JsonValue& where, const std::string& place, const std::string& message,
               std::string_view cause) const;
 
@@ -91,7 +92,7 @@ class GltfDocument {
   ReadingLog& log_;
   JsonReader reader_;
   std::array<const JsonArray*, 7> arrays_{};
-  std::set<std::string, std::less<>> named_;  ///< The extensions that the document says it uses.
+  std::set<std::string, std::less<>> named_;  ///< The extensions that the document lists as used.
 };
 
 }  // namespace firstcontact::detail

@@ -17,7 +17,7 @@ constexpr auto kHarmless = GltfMeaning::harmless;
 constexpr auto kCompressed = GltfMeaning::compressed;
 constexpr auto kGeometry = GltfMeaning::geometry;
 
-/// The first that fits holds.
+/// The known extensions; the first that fits holds.
 constexpr auto kKnown = std::to_array<Known>({
     {"KHR_mesh_quantization", kUnderstood, "integer coordinates"},
     {"EXT_mesh_gpu_instancing", kUnderstood, "instances"},

@@ -14,14 +14,16 @@ enum class GltfMeaning {
   compressed,  ///< It holds geometry in a form that is not read; the plain form may stand beside
                ///< it.
   geometry,    ///< It holds, places or hides geometry, and is not read.
-  unknown,     ///< Nobody knows.
+  unknown,     ///< Its meaning is not known.
 };
 
+/// The meaning of an extension, and its topic.
 struct GltfExtension {
   GltfMeaning meaning = GltfMeaning::unknown;
-  std::string_view reason;  ///< What it is about: "looks", "shapes of a simulator".
+  std::string_view reason;  ///< Its topic: "looks", "shapes of a simulator".
 };
 
+/// Finds the meaning of an extension.
 [[nodiscard]] GltfExtension gltf_extension(std::string_view name);
 
 }  // namespace firstcontact::detail

@@ -35,7 +35,7 @@ GltfInstances::GltfInstances(const GltfDocument& document, const GltfAccessorRea
     }
   }
   if (!has_count_) {
-    document.log().throw_errors();  // A name that is not known says more.
+    document.log().throw_errors();  // An error about an unknown name explains more.
     document.fail(attributes, "expected TRANSLATION, ROTATION or SCALE of instances, got none");
   }
 }

@@ -12,9 +12,11 @@
 
 namespace firstcontact::detail {
 
-/// Where the instances of a mesh are, in the frame of the node that has it.
+/// The instances of a mesh, in the frame of the node that has it.
 class GltfInstances {
  public:
+  /// Reads the instances.
+  ///
   /// @param extension  of the node
   /// @throws ParseError  arrays of different lengths, no array at all
   GltfInstances(const GltfDocument& document, const GltfAccessorReader& accessors,
@@ -22,6 +24,8 @@ class GltfInstances {
 
   [[nodiscard]] std::size_t count() const { return count_; }
 
+  /// Computes the map of an instance.
+  ///
   /// @throws ParseError  a quaternion of zeros, or one that is not finite
   [[nodiscard]] Eigen::Affine3d transform(std::size_t instance) const;
 

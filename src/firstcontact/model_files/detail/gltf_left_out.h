@@ -9,9 +9,9 @@
 
 namespace firstcontact::detail {
 
-/// Notes what is left out of the document: looks, cameras, animations, meshes that nothing places.
+/// Notes the left-out parts of a document: looks, cameras, animations, meshes that nothing places.
 ///
-/// @param used  of each mesh, whether a node of the scene has it
+/// @param used  for each mesh, whether a node of the scene has it
 void note_left_out(const GltfDocument& document, const std::vector<bool>& used);
 
 }  // namespace firstcontact::detail

@@ -15,7 +15,7 @@ constexpr GltfExpected kIndices{.type = "SCALAR", .floats = false, .integers = t
 constexpr GltfExpected kJoints{.type = "VEC4", .floats = false, .integers = true};
 constexpr GltfExpected kWeights{.type = "VEC4", .floats = true, .integers = true};
 
-/// Reads one primitive; `place` is its own, for notes.
+/// Reads one primitive; `place` is the primitive's, for notes.
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const GltfAccessorReader& accessors,
@@ -27,7 +27,7 @@ class PrimitiveReader {
         object_(document.checked(where, GltfObject::primitive, place_)),
         attributes_(document.object(document.reader().member(where, "attributes"))) {}
 
-  /// Nothing where the primitive has no triangles.
+  /// Reads the primitive; nothing where it has no triangles.
   [[nodiscard]] std::optional<GltfPrimitive> read() const {
     const std::optional<GltfMode> mode = read_mode();
     const JsonValue* const positions = find(attributes_, "POSITION");
@@ -117,7 +117,8 @@ class PrimitiveReader {
     });
   }
 
-  /// Draco's accessors may have no bytes of their own: they would be read as zeros.
+  /// Refuses Draco compression: its accessors may have no bytes of their own and would be read as
+  /// zeros.
   void refuse_compressed(const GltfPrimitive& primitive) const {
     if (document_.extension(object_, "KHR_draco_mesh_compression") == nullptr) {
       return;

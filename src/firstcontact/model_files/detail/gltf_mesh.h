@@ -14,10 +14,10 @@
 
 namespace firstcontact::detail {
 
-/// How corners make triangles.
+/// The ways in which corners make triangles.
 enum class GltfMode { triangles, strip, fan };
 
-/// Joints of a skin that move vertices, and by what weights: four a vertex.
+/// The joints of a skin that move vertices, with their weights: four a vertex.
 struct GltfInfluences {
   GltfAccessor joints;
   GltfAccessor weights;
@@ -25,35 +25,36 @@ struct GltfInfluences {
 
 /// A primitive of triangles.
 struct GltfPrimitive {
-  const JsonValue* where = nullptr;  ///< In the document, for errors.
+  const JsonValue* where = nullptr;  ///< Its place in the document, for errors.
   GltfMode mode = GltfMode::triangles;
   GltfAccessor positions;
   std::optional<GltfAccessor> indices = {};
-  std::vector<std::optional<GltfAccessor>> targets =
-      {};  ///< What each morph target adds to positions.
+  /// Displacements of the positions by each morph target.
+  std::vector<std::optional<GltfAccessor>> targets = {};
   std::vector<GltfInfluences> influences = {};
 
-  /// So many corners make triangles; the numbers of vertices where there are no indices.
+  /// Counts the corners that make triangles. Without indices that is the number of vertices.
   [[nodiscard]] std::size_t corner_count() const {
     return indices ? indices->count() : positions.count();
   }
   [[nodiscard]] std::size_t triangle_count() const;
 
-  /// Which corners triangle i has. Every second triangle of a strip is turned, so that all of them
-  /// are seen from the same side.
+  /// Finds the corners of triangle i. Every second triangle of a strip is turned, so that all of
+  /// them are seen from the same side.
   [[nodiscard]] std::array<std::size_t, 3> corners(std::size_t i) const;
 };
 
+/// The primitives of a mesh, and its weights.
 struct GltfMesh {
-  std::vector<GltfPrimitive> primitives;  ///< Those of triangles.
-  std::vector<double> weights;            ///< Of the morph targets; empty if the mesh has none.
+  std::vector<GltfPrimitive> primitives;  ///< The primitives of triangles.
+  std::vector<double> weights;  ///< Weights of the morph targets; empty if the mesh has none.
 };
 
-/// The weights of a mesh or of a node.
+/// Reads the weights of a mesh or of a node.
 [[nodiscard]] std::vector<double> read_weights(const GltfDocument& document,
                                                const JsonObject& object);
 
-/// Reads a mesh. Points, lines and what only looks need is left out by name.
+/// Reads a mesh. Points, lines and attributes of the looks are left out by name.
 ///
 /// @throws ParseError  a mode that glTF does not have, arrays of different lengths, a number of
 ///         corners that is no multiple of three, compressed geometry; and as GltfAccessorReader

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// Who is whose child.
+/// The children and the parent of each node.
 struct Family {
   std::vector<std::vector<std::size_t>> children;
-  std::vector<std::size_t> parent;  ///< kNone of a root.
+  std::vector<std::size_t> parent;  ///< kNone for a root.
 };
 
 Family find_family(const GltfDocument& document) {
@@ -43,7 +43,7 @@ Family find_family(const GltfDocument& document) {
   return family;
 }
 
-/// The nodes below some roots, with the roots; each is above no other.
+/// Lists the nodes below some roots, with the roots. No root is above another.
 std::vector<std::size_t> walk(const Family& family, const std::vector<std::size_t>& roots) {
   std::vector<std::size_t> order;
   std::vector<std::size_t> open(roots.rbegin(), roots.rend());
@@ -84,7 +84,7 @@ std::vector<Eigen::Affine3d> place(const GltfDocument& document, const Family& f
   return X_WN;
 }
 
-/// The scene that is read; none where the document has no scenes.
+/// Finds the scene that is read; none where the document has no scenes.
 std::optional<std::size_t> chosen_scene(const GltfDocument& document) {
   const JsonArray& scenes = document.all(GltfArray::scenes);
   if (const JsonValue* const scene = find(document.root(), "scene")) {

@@ -14,7 +14,8 @@
 
 namespace firstcontact::detail {
 
-/// A skin: how each of its joints moves what is bound to it, from the mesh's frame to the world's.
+/// A skin: the map that each of its joints applies to bound vertices, from the mesh's frame to the
+/// world's.
 struct GltfSkin {
   std::vector<Eigen::Affine3d> X_WM;  ///< X_WJ times the inverse bind matrix, for each joint J.
 };
@@ -28,8 +29,8 @@ struct GltfSkin {
                                       const GltfAccessorReader& accessors, const GltfNodes& nodes,
                                       std::size_t index);
 
-/// The map of one vertex: the mean of its joints' maps by its weights, of all sets. The sum of the
-/// weights, which writers round, is divided out; a warning tells where it is far from 1.
+/// Computes the map of one vertex: the mean of its joints' maps by its weights, of all sets. The
+/// sum of the weights, which writers round, is divided out. A warning reports a sum far from 1.
 ///
 /// @param primitive  has influences
 /// @throws ParseError  a joint that the skin does not have, a weight that is negative or not

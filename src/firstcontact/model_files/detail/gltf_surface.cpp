@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// The index that would restart a strip; glTF does not allow it.
+/// Computes the index that would restart a strip; glTF forbids it.
 std::size_t restart_of(GltfNumber type) { return (std::size_t{1} << (8 * size_of(type))) - 1; }
 
 Eigen::Vector3d morphed(const GltfPrimitive& primitive, const std::vector<double>& weights,
@@ -121,7 +121,7 @@ void GltfSurface::select_indexed(const GltfPrimitive& primitive) {
   }
 }
 
-/// Whether most of the vertices were mirrored.
+/// Adds the vertices. Returns whether most of them were mirrored.
 bool GltfSurface::add_vertices(const GltfPrimitive& primitive, const GltfPlacement& placement) {
   const bool in_place = placement.skin == nullptr && is_identity(placement.X_WM);
   std::size_t mirrored = 0;

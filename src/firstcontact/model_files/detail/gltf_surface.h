@@ -16,15 +16,16 @@
 
 namespace firstcontact::detail {
 
-/// How a primitive gets into the world.
+/// The placement of a primitive in the world.
 struct GltfPlacement {
-  Eigen::Affine3d X_WM = Eigen::Affine3d::Identity();  ///< From the mesh's frame; not of a skin.
-  const GltfSkin* skin = nullptr;                      ///< Moves the vertices where there is one.
-  std::vector<double> weights = {};                    ///< Of the morph targets; empty: all zero.
+  /// Map from the mesh's frame; not used with a skin.
+  Eigen::Affine3d X_WM = Eigen::Affine3d::Identity();
+  const GltfSkin* skin = nullptr;    ///< Moves the vertices where there is one.
+  std::vector<double> weights = {};  ///< Weights of the morph targets; empty: all zero.
 };
 
-/// Collects placed primitives. Vertices that no triangle uses are dropped: primitives often share
-/// one large array of them. The others keep the order of the array.
+/// Collects placed primitives. Vertices that no triangle uses are dropped, as primitives often
+/// share one large array of them. The others keep the order of the array.
 class GltfSurface {
  public:
   explicit GltfSurface(const GltfDocument& document) : document_(document) {}
@@ -48,8 +49,9 @@ class GltfSurface {
 
   const GltfDocument& document_;
   Mesh mesh_;
-  std::vector<std::uint32_t> used_;    ///< The vertices of the primitive at hand, ascending.
-  std::vector<std::uint32_t> number_;  ///< Of each of its vertices, in the mesh; kNone of others.
+  std::vector<std::uint32_t> used_;  ///< The used vertices of the current primitive, ascending.
+  /// Index in the mesh of each of its vertices; kNone for the rest.
+  std::vector<std::uint32_t> number_;
 };
 
 }  // namespace firstcontact::detail

@@ -20,9 +20,9 @@ Eigen::Matrix<double, kSize, 1> numbers(const GltfDocument& document, const Json
   return result;
 }
 
-/// The rotation matrix of a quaternion divided by its length. Homogeneous in the quaternion, so
-/// that the length is never taken; see K. Shoemake, "Animating rotation with quaternion curves",
-/// 1985.
+/// Computes the rotation matrix of a quaternion divided by its length. The formula is homogeneous
+/// in the quaternion and so needs no length; see K. Shoemake, "Animating rotation with quaternion
+/// curves", 1985.
 Eigen::Matrix3d rotation_of(const Eigen::Vector4d& quaternion) {
   const int exponent = std::ilogb(quaternion.cwiseAbs().maxCoeff());
   const auto scaled = [&](int i) { return std::scalbn(quaternion[i], -exponent); };
@@ -70,7 +70,7 @@ std::optional<Eigen::Affine3d> affine(const Eigen::Matrix4d& matrix) {
 
 bool mirrors(const Eigen::Matrix3d& linear) {
   Eigen::Matrix3d columns = linear;
-  for (int i = 0; i < 3; ++i) {  // The sign only: without this, tiny scales would underflow.
+  for (int i = 0; i < 3; ++i) {  // Signs only: otherwise tiny scales would underflow.
     const double most = columns.col(i).cwiseAbs().maxCoeff();
     if (most > 0.0) {
       columns.col(i) /= most;

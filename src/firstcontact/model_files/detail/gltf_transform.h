@@ -1,5 +1,5 @@
 /// @file
-/// Affine maps of glTF: of nodes, of instances and of joints.
+/// Affine maps of glTF: those of nodes, of instances and of joints.
 
 #pragma once
 
@@ -12,14 +12,15 @@
 
 namespace firstcontact::detail {
 
-/// The map from a node's frame to that of its parent: its matrix, or its translation, rotation and
-/// scale. The quaternion stands for itself divided by its exact length, as that of a Pose does.
+/// Reads the map from a node's frame to that of its parent: its matrix, or its translation,
+/// rotation and scale. The quaternion is divided by its exact length, as that of a Pose.
 ///
 /// @throws ParseError  both forms at once, a quaternion of zeros, a matrix that is not affine
 [[nodiscard]] Eigen::Affine3d node_transform(const GltfDocument& document, const JsonValue& node);
 
-/// p -> translation + R(rotation) (scale * p), with scale taken coordinate by coordinate.
-/// The entries of the rotation are rounded to doubles; those of turns by 90 degrees are exact.
+/// Makes the map p -> translation + R(rotation) (scale * p), with scale taken coordinate by
+/// coordinate. The entries of the rotation are rounded to doubles; those of turns by 90 degrees are
+/// exact.
 ///
 /// @param rotation  (x, y, z, w); of any length
 /// @returns  nothing where the rotation is zero or not finite
@@ -27,13 +28,12 @@ namespace firstcontact::detail {
                                                      const Eigen::Vector4d& rotation,
                                                      const Eigen::Vector3d& scale);
 
-/// The map of a 4x4 matrix; nothing where the matrix is not finite, or its last row is not
-/// (0, 0, 0, 1). Writers invert matrices in single precision: an error of 1e-5 in that row is
-/// theirs.
+/// Makes the map of a 4x4 matrix; nothing where the matrix is not finite, or its last row is not
+/// (0, 0, 0, 1). Writers invert matrices in single precision, so an error of 1e-5 in that row is
+/// accepted.
 [[nodiscard]] std::optional<Eigen::Affine3d> affine(const Eigen::Matrix4d& matrix);
 
-/// Whether a map turns the outside of a closed surface inwards: whether its determinant is
-/// negative.
+/// Whether a map turns the outside of a closed surface inwards: its determinant is negative then.
 [[nodiscard]] bool mirrors(const Eigen::Matrix3d& linear);
 
 }  // namespace firstcontact::detail

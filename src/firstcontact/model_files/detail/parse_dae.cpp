@@ -26,7 +26,7 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-/// Looks at what stands beside the scene in a document.
+/// Notes the elements beside the scene of a document.
 void note_libraries(const DaeDocument& document) {
   constexpr const char* kLooks = "looks";
   constexpr const char* kAnimation = "animation: the nodes have the poses that they state";
@@ -98,7 +98,7 @@ class DaeReader {
     }
   }
 
-  /// The polygons of a geometry that is placed once more.
+  /// Takes the polygons of a geometry that is placed once more.
   const std::vector<DaePolygons>& take(const XmlElement& instance, const XmlElement& geometry) {
     used_.insert(&geometry);
     const std::vector<DaePolygons>& all = geometries_.polygons(geometry);
@@ -131,7 +131,7 @@ class DaeReader {
     }
   }
 
-  /// A skin of a geometry or of a morph.
+  /// Adds a skin of a geometry or of a morph.
   void add_skin(const XmlElement& instance, const XmlElement& skin) {
     const char* const source = skin.Attribute("source");
     const bool of_controller = source != nullptr && *source == '#' &&
@@ -165,7 +165,7 @@ class DaeReader {
                  Affine3d::Identity());
   }
 
-  /// Adds polygons, and those of the vertices that they use.
+  /// Adds polygons, and the vertices that they use.
   void add_polygons(const XmlElement& instance, const std::vector<DaePolygons>& all,
                     const std::vector<Vector3d>& points, const Affine3d& X_WN) {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -206,7 +206,7 @@ class DaeReader {
     }
   }
 
-  /// Counts what a library holds and the scene does not.
+  /// Counts the elements of a library that are not in the scene.
   void note_unused(const char* library, const char* kind) {
     for (const XmlElement* shelf : document_.xml().children(document_.root(), library)) {
       document_.check_children(*shelf, {kind});
@@ -238,7 +238,7 @@ Mesh parse_dae(std::string_view bytes, ReadingLog& log) {
     if (!log.has_errors()) {
       throw;
     }
-    log.add_error(error);  // Names that were not known may be the cause.
+    log.add_error(error);  // Unknown names may be the cause.
   }
   log.throw_errors();
   return {};

@@ -10,19 +10,19 @@
 
 namespace firstcontact::detail {
 
-/// Parses a COLLADA document of version 1.4 or 1.5: what its <scene> instances, in metres, with the
-/// axes of the file. Not welded.
+/// Parses a COLLADA document of version 1.4 or 1.5: the scene that its <scene> instances, in
+/// metres, with the axes of the file. Not welded.
 ///
-/// Geometries are placed by the transforms of their nodes, morphs have the weights that the file
-/// states, skins the pose that the nodes of their joints have: the bind pose, as long as nobody
-/// moved them. Polygons are turned where the map of their node mirrors, so that the inside of a
-/// closed surface stays inside.
+/// Geometries are placed by the transforms of their nodes. Morphs have the weights that the file
+/// states. Skins have the pose of the nodes of their joints; that is the bind pose, unless the
+/// nodes were moved. Polygons are turned where the map of their node mirrors, so that the inside of
+/// a closed surface stays inside.
 ///
-/// The log gets what is left out: looks, animations, the shapes and joints of simulators, settings
-/// of other tools, lines, geometries outside of the scene.
+/// The log notes the parts that are left out. These are looks, animations, the shapes and joints of
+/// simulators, settings of other tools, lines, geometries outside of the scene.
 ///
 /// @param bytes  the file, of which log.path() is the path
-/// @throws ParseError  what is malformed, not known or not read, and no polygon at all
+/// @throws ParseError  malformed, unknown or unsupported parts, or no polygon at all
 [[nodiscard]] Mesh parse_dae(std::string_view bytes, ReadingLog& log);
 
 }  // namespace firstcontact::detail

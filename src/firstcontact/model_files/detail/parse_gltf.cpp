@@ -27,18 +27,18 @@ struct PlacedMesh {
   std::size_t node = 0;
   std::size_t mesh = 0;
   std::optional<std::size_t> skin;
-  std::vector<double> weights;  ///< Of its morph targets.
+  std::vector<double> weights;  ///< Weights of its morph targets.
   std::optional<GltfInstances> instances;
 };
 
-/// How much a document places.
+/// The size of all that a document places.
 struct PlacedSize {
   double vertices = 0.0;
   double triangles = 0.0;
   double work = 0.0;  ///< As GltfLimits counts it.
 };
 
-/// Reads the scene of a document: first what its nodes have, then the triangles.
+/// Reads the scene of a document: first the content of its nodes, then the triangles.
 class SceneReader {
  public:
   SceneReader(const GltfDocument& document, GltfBuffers& buffers, std::size_t file_size)
@@ -124,7 +124,7 @@ class SceneReader {
     return *meshes_[index];
   }
 
-  /// The node's weights, those of its mesh, or none.
+  /// Finds the node's weights, else those of its mesh, or none.
   [[nodiscard]] std::vector<double> weights_of(const JsonObject& node, const JsonValue& where,
                                                std::size_t mesh_index) {
     std::vector<double> weights = read_weights(document_, node);
