@@ -38,7 +38,7 @@ void refuse_attached(const JsonValue& state, const JsonReader& read) {
   }
 }
 
-/// The pose of the joint between the world and the root link.
+/// Reads the pose of the joint between the world and the root link.
 detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
                               const JsonReader& read) {
   const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
@@ -53,7 +53,7 @@ detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
   return joint->base;
 }
 
-/// Refuses keys that a request doesn't have: what they ask would be left out without notice.
+/// Refuses unknown keys of a request: they would be left out without notice.
 void require_request_keys(const JsonValue& request, const JsonReader& read) {
   (void)read.object(
       request, {{"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
@@ -75,9 +75,9 @@ const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
   return list.front();
 }
 
-/// Refuses a message of constraints that has some.
+/// Refuses a message of constraints that is not empty.
 ///
-/// @param where  they hold, for errors: "along the path"
+/// @param where  the constraints hold, for errors: "along the path"
 void refuse_constraints(const JsonValue& constraints, const std::string& where,
                         const JsonReader& read) {
   for (const char* key : {"joint_constraints", "position_constraints", "orientation_constraints",
@@ -88,7 +88,7 @@ void refuse_constraints(const JsonValue& constraints, const std::string& where,
   }
 }
 
-/// Refuses constraints that nothing here would keep.
+/// Refuses constraints that would not be kept here.
 void refuse_other_constraints(const JsonValue& request, const JsonValue& goal,
                               const JsonReader& read) {
   if (const JsonValue* visible = find_filled(goal, "visibility_constraints")) {
@@ -111,7 +111,7 @@ bool is_of_link(const JsonValue& goal) {
          find_filled(goal, "orientation_constraints") != nullptr;
 }
 
-/// Where the joints are to be.
+/// Reads the positions that the joints shall reach.
 detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotModel& robot,
                                      const JsonReader& read) {
   detail::MessageState goal;
@@ -189,7 +189,7 @@ Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
     const JointCoordinate coordinate = find_coordinate(robot, name);
     const Joint& joint = robot.joints()[coordinate.joint];
     if (joint.mimic) {
-      continue;  // It follows.
+      continue;  // It follows another joint.
     }
     const auto found = start.find(name);
     const double from = found != start.end() ? found->second : default_position(joint);
@@ -202,7 +202,7 @@ Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
       duration = std::max(duration, std::abs(way) / *joint.limits.velocity);
     }
   }
-  // A little longer, so that rounding leaves no limit.
+  // A little longer, so that rounding exceeds no limit.
   trajectory.points[1].time = duration > 0.0 ? duration * (1.0 + 0x1p-40) : 1.0;
   return trajectory;
 }

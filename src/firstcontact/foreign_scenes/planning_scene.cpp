@@ -19,7 +19,7 @@ using detail::find_filled;
 using detail::JsonReader;
 using detail::JsonValue;
 
-/// moveit_msgs/LinkPadding: {link_name: , padding: }
+/// Reads moveit_msgs/LinkPadding: {link_name: , padding: }
 void read_padding(const JsonValue& list, PlanningScene& scene, const JsonReader& read) {
   for (const JsonValue& element : read.array(list, "an array of paddings")) {
     (void)read.object(element, {{"link_name", "padding"}});
@@ -52,7 +52,7 @@ void refuse_octomap(const JsonValue& world, const JsonReader& read) {
   }
 }
 
-/// Names that the robot may not have: it is not known here.
+/// Reads a state. The robot is not known here, so the names may be foreign to it.
 JointPositions read_state(const JsonValue& value, const JsonReader& read) {
   JointPositions state;
   for (const detail::NamedPosition& joint : detail::named_positions(value, read)) {
@@ -62,7 +62,7 @@ JointPositions read_state(const JsonValue& value, const JsonReader& read) {
   return state;
 }
 
-/// The robot's links, and which pairs may touch.
+/// Reads the paddings of the robot's links, and the pairs that may touch.
 void read_links(const JsonValue& scene, PlanningScene& result, const JsonReader& read) {
   if (const JsonValue* padding = find_filled(scene, "link_padding")) {
     read_padding(*padding, result, read);
@@ -86,7 +86,8 @@ void read_world(const JsonValue& world, detail::PlanningObjects& objects, Planni
   }
 }
 
-/// The planning frame is that of the root link here: objects may be placed by either.
+/// Refuses a base that is moved. The planning frame is that of the root link here: objects may be
+/// placed by either.
 void refuse_moved_base(const JsonValue& state, const JsonReader& read) {
   const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
   if (joint &&

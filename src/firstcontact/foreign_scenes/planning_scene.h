@@ -68,8 +68,8 @@ struct PlanningRequest {
 /// same. A quaternion is x, y, z, w; one of zeros is the identity, with a warning. Attached objects
 /// are in the frame of their link. Padding thickens a link by a ball.
 ///
-/// Content that would be left out without notice is an error: planes, octomaps, scales of links,
-/// objects in other frames, a robot whose base is moved, unknown keys.
+/// Errors are planes, octomaps, scales of links, objects in other frames, a robot whose base is
+/// moved, and unknown keys. They would be left out without notice.
 ///
 /// @param frame  the name of the robot's root link: it is in the planning frame
 /// @throws ParseError

@@ -80,7 +80,7 @@ class FixtureReader {
  private:
   Simulation& simulation() { return *scene_.simulation; }
 
-  /// [s]  A negative time, or number of steps, is none.
+  /// [s]  Reads the duration. A negative time, or number of steps, counts as missing.
   double duration(const JsonObject& fixture) {
     constexpr double kStepsByDefault = 1000.0;
     const JsonValue* time = find(fixture, "max_time");
@@ -97,7 +97,8 @@ class FixtureReader {
   }
 
   double contact_distance(const JsonObject& fixture) {
-    constexpr double kShare = 0.1;  // Of where repulsion begins there.
+    // Fraction of the distance at which repulsion begins in Rigid IPC.
+    constexpr double kShare = 0.1;
     double activation = 1e-3;
     double separation = 0.0;
     if (const JsonValue* value = find(fixture, "distance_barrier_constraint")) {
@@ -125,7 +126,7 @@ class FixtureReader {
     return friction == nullptr ? 0.0 : read_.not_negative(*friction);
   }
 
-  /// Negative: left to the solver, which has none.
+  /// Reads the restitution. A negative one is left to the solver, which has none.
   [[nodiscard]] double restitution(const JsonObject& problem) const {
     const JsonValue* value = find(problem, "coefficient_restitution");
     const double restitution = value == nullptr ? 0.0 : read_.number(*value);
@@ -172,7 +173,7 @@ class FixtureReader {
     return group == nullptr ? -1.0 : read_.number(*group);
   }
 
-  /// Dimensions prevail; along an axis without extent they are factors.
+  /// Reads the scale. Dimensions override factors; along an axis without extent they are factors.
   [[nodiscard]] Vector3d read_scale(const JsonObject& entry, const Mesh& mesh) const {
     if (const JsonValue* dimensions = find(entry, "dimensions")) {
       const Vector3d extent = detail::extent(mesh);
@@ -197,7 +198,8 @@ class FixtureReader {
     }
   }
 
-  /// Equal ones share their shape. The file stands for it where it says the same.
+  /// Adds a whole mesh. Equal ones share their shape. The scene names the file where that gives the
+  /// same shape.
   void add_whole(const RigidIpcBody& body, const RigidIpcOrigin& origin,
                  const std::filesystem::path& file, const Vector3d& scale) {
     const Mesh& mesh = meshes_.load(file);
@@ -224,7 +226,7 @@ class FixtureReader {
     if (body.type == RigidIpcType::dynamic) {
       added.free = detail::free_body(body, weighed);
     } else if (body.type == RigidIpcType::kinematic) {
-      // It turns about the centre of mass, a scripted body about the origin of its frame.
+      // A free body turns about the centre of mass, a scripted body about the origin of its frame.
       added.shape.source = Shape(detail::moved(weighed.shape.mesh(), -weighed.p_BC));
       added.motion =
           detail::scripted_motion(body, weighed, simulation().step, simulation().duration);

@@ -34,7 +34,8 @@ std::vector<std::string> read_names(const JsonValue& matrix, std::string_view ke
   return names;
 }
 
-/// One row for each name, each as long as there are names: [true, false] or {enabled: [...]}.
+/// Reads the rows: one for each name, each as long as there are names: [true, false] or {enabled:
+/// [...]}.
 void read_entries(const JsonValue& matrix, AllowedCollisions& allowed, const JsonReader& read) {
   const std::vector<std::string> names = read_names(matrix, "entry_names", read);
   if (names.empty()) {

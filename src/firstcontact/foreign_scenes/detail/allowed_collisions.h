@@ -1,5 +1,5 @@
 /// @file
-/// The matrix of a planning scene that says which pairs may touch.
+/// The matrix of a planning scene that states which pairs may touch.
 
 #pragma once
 

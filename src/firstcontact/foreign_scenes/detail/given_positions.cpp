@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
-/// A state of the SRDF, or NAME=POSITION, also of a fixed joint.
+/// Reads a state of the SRDF, or NAME=POSITION, also for a fixed joint.
 JointPositions said_by(const std::string& text, const SceneRobot& robot) {
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos && robot.semantics.states.empty()) {
@@ -55,7 +55,7 @@ GivenPositions moving(const JointPositions& positions, const std::string& what,
 GivenPositions positions_of(const std::vector<std::string>& texts, const std::string& what,
                             const SceneRobot& robot) try {
   JointPositions positions;
-  std::set<std::string> told;  // One by one, as states may be amended.
+  std::set<std::string> told;  // Joints named one by one; joints of states may be set again.
   for (const std::string& text : texts) {
     for (const auto& [name, position] : said_by(text, robot)) {
       positions[name] = position;

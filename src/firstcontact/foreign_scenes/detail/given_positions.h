@@ -1,5 +1,5 @@
 /// @file
-/// Joint positions that a question gives beside the robot's motion.
+/// Joint positions that a question states beside the robot's motion.
 
 #pragma once
 
@@ -11,26 +11,26 @@
 
 namespace firstcontact::detail {
 
-/// Positions of joints that move, and a warning for what was left out.
+/// Positions of joints that move, and a warning for those that were left out.
 struct GivenPositions {
   JointPositions positions;
   std::vector<std::string> warnings;
 };
 
-/// The positions that words give: states of the SRDF, or NAME=POSITION.
+/// Reads positions from words: states of the SRDF, or NAME=POSITION.
 ///
-/// Later states prevail; a joint is named once.
+/// Later states override earlier ones; a joint is named once.
 ///
 /// @param what  whose positions these are, for errors and warnings
 /// @throws std::invalid_argument if the robot has no such state or joint
 [[nodiscard]] GivenPositions positions_of(const std::vector<std::string>& texts,
                                           const std::string& what, const SceneRobot& robot);
 
-/// The positions in a planning scene's robot_state of joints that the robot's trajectory does not
-/// name.
+/// Reads positions from a planning scene's robot_state, for joints that the robot's trajectory does
+/// not name.
 ///
-/// Joints that mimic others are left out, as are, with a warning, joints that the robot does not
-/// have.
+/// Joints that mimic others are left out. Joints that the robot does not have are left out with a
+/// warning.
 ///
 /// @param source  names the file in warnings
 [[nodiscard]] GivenPositions positions_at_rest(const JointPositions& state,

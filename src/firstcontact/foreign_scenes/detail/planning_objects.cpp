@@ -12,12 +12,12 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The first ROS began some frames with a slash.
+/// Removes a leading slash: in the first ROS some names of frames began with one.
 std::string without_slash(const std::string& name) {
   return name.starts_with('/') ? name.substr(1) : name;
 }
 
-/// The frame of a message with a header; may be null.
+/// Finds the frame of a message with a header; may be null.
 const JsonValue* frame_name(const JsonValue& message, const JsonReader& read) {
   const JsonValue* header = find_filled(message, "header");
   if (header == nullptr) {
@@ -125,7 +125,7 @@ Pose PlanningObjects::frame_of(const JsonValue& message) const {
   return found->second;
 }
 
-/// What would touch, if it were understood.
+/// Refuses the parts of an object that would touch if they were understood.
 void PlanningObjects::refuse_others(const JsonValue& object) const {
   if (const JsonValue* planes = find_filled(object, "planes")) {
     read_.fail(*planes, "expected no planes, which have no end; put a box in their place");

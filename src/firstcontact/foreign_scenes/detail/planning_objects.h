@@ -19,25 +19,27 @@
 
 namespace firstcontact::detail {
 
-/// Puts objects that rest, and objects that links hold, into a planning scene.
+/// Adds objects that rest, and objects that links hold, to a planning scene.
 class PlanningObjects {
  public:
+  /// Prepares the reading.
+  ///
   /// @param source  meshes are relative to its folder
   /// @param frame   of the robot's root link: it is the planning frame
   /// @param read    outlives this
   PlanningObjects(const std::filesystem::path& source, std::string_view frame,
                   const JsonReader& read);
 
-  /// fixed_frame_transforms: frames that objects may be in.
+  /// Reads fixed_frame_transforms: frames that objects may be in.
   void add_frames(const JsonValue& transforms);
 
   /// Adds the bodies of a moveit_msgs/CollisionObject.
   void add_object(const JsonValue& value, PlanningScene& scene);
 
-  /// Adds the parts of a moveit_msgs/AttachedCollisionObject.
+  /// Adds the bodies of a moveit_msgs/AttachedCollisionObject.
   void add_attached(const JsonValue& value, PlanningScene& scene);
 
-  /// Objects and frames with a pose whose quaternion is zero.
+  /// The objects and frames with a pose whose quaternion is zero.
   [[nodiscard]] const std::vector<std::string>& with_zero_quaternions() const { return zeros_; }
 
  private:

@@ -9,12 +9,12 @@
 
 namespace firstcontact::detail {
 
-/// shape_msgs/SolidPrimitive: its type is a word or a number from 1.
+/// Reads a shape_msgs/SolidPrimitive: its type is a word or a number from 1.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyShape read_primitive(const JsonValue& value, const JsonReader& read);
 
-/// shape_msgs/Mesh, or a file under `resource`.
+/// Reads a shape_msgs/Mesh, or a file under `resource`.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyShape read_message_mesh(const JsonValue& value, const SceneFolders& folders,

@@ -12,10 +12,10 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr double kAnyTurn = 4.0;        // [rad]  More than half a turn.
-constexpr double kLeast = 1e-6;         // [m or rad]  Where a tolerance is 0.
+constexpr double kLeast = 1e-6;         // [m or rad]  Taken where a tolerance is 0.
 constexpr std::size_t kPrimitives = 4;  // 1 box, 2 sphere, 3 cylinder, 4 cone.
 
-/// The frame of a constraint in the world: that of planning, or of the root link.
+/// Finds the frame of a constraint in the world: that of planning, or of the root link.
 Pose frame_of(const JsonValue& constraint, const RobotModel& robot, const Pose& X_WR,
               const JsonReader& read) {
   const JsonValue* header = find_filled(constraint, "header");
@@ -53,7 +53,7 @@ std::string link_of(const JsonValue& constraint, const RobotModel& robot, const 
   return name;
 }
 
-/// [m]  The radius of the greatest ball about the middle of a primitive.
+/// [m]  Computes the radius of the greatest ball about the middle of a primitive.
 double inner_radius(const JsonValue& primitive, const JsonReader& read) {
   const JsonValue& type = read.member(primitive, "type");
   const std::size_t kind = read.index(type, kPrimitives, "1, 2 or 3: a box, a sphere, a cylinder");
@@ -115,7 +115,7 @@ void take_orientation(const JsonValue& constraint, const RobotModel& robot, cons
   }
   goal.X_WT.rotation =
       (frame_of(constraint, robot, X_WR, read).rotation * turned.pose.rotation).normalized();
-  double least = 2.0 * kAnyTurn;  // Half of it is taken.
+  double least = 2.0 * kAnyTurn;  // Half of it is the tolerance.
   for (const char* key :
        {"absolute_x_axis_tolerance", "absolute_y_axis_tolerance", "absolute_z_axis_tolerance"}) {
     const JsonValue* tolerance = find_filled(constraint, key);

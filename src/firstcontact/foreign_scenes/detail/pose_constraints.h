@@ -12,9 +12,9 @@ namespace firstcontact::detail {
 /// Reads `position_constraints` and `orientation_constraints` of a goal: one of the first, and at
 /// most one of the second for the same link.
 ///
-/// The region of the position is a sphere, a box or a cylinder; what is asked for is the ball in
-/// it around its middle. A constraint has three tolerances about axes. Half of the least one bounds
-/// the rotation, whichever parameterization the message names.
+/// The region of the position is a sphere, a box or a cylinder. The goal is the ball in it around
+/// its middle. A constraint has three tolerances about axes. Half of the least one bounds the
+/// rotation, for every parameterization that the message may name.
 ///
 /// @param X_WR  of the root link, whose name is a frame, too
 /// @throws ParseError

@@ -1,5 +1,5 @@
 /// @file
-/// Reads how a body of a fixture of Rigid IPC moves.
+/// Reads the motion of a body of a fixture of Rigid IPC.
 
 #pragma once
 
@@ -8,6 +8,8 @@
 
 namespace firstcontact::detail {
 
+/// Reads a body.
+///
 /// @param entry  of "rigid_bodies"
 /// @throws ParseError
 [[nodiscard]] RigidIpcBody read_rigid_ipc_body(const JsonObject& entry, RigidIpcKeys& keys);

@@ -21,11 +21,11 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// [kg]  So that no product of masses and squared lengths over- or underflows.
+/// [kg]  Limits by which no product of masses and squared lengths over- or underflows.
 constexpr double kLeastMass = 1e-100;
 constexpr double kGreatestMass = 1e100;
 
-/// None where the mesh encloses no space.
+/// Computes the mass of the enclosed solid; none where the mesh encloses no space.
 std::optional<MassProperties> solid_mass(const Shape& shape) {
   try {
     return mass_properties(shape);
@@ -34,8 +34,8 @@ std::optional<MassProperties> solid_mass(const Shape& shape) {
   }
 }
 
-/// The axes that a body turns about by itself, as columns, in those of the given inertia; the
-/// identity where every axis is one.
+/// Finds the principal axes, as columns in those of the given inertia; the identity where every
+/// axis is a principal one.
 Quaterniond principal_axes(const Matrix3d& inertia) {
   constexpr double kRounding = 1e-9;  // [-]
   const double mean = inertia.trace() / 3.0;
@@ -49,7 +49,8 @@ Quaterniond principal_axes(const Matrix3d& inertia) {
   return Quaterniond(axes).normalized();
 }
 
-/// A pose of the centre of mass and principal axes as one of the centre of mass and mesh axes.
+/// Converts a pose of the centre of mass and principal axes to one of the centre of mass and mesh
+/// axes.
 Pose with_mesh_axes(const Pose& pose, const RigidIpcBody& body, const WeighedShape& shape) {
   const Matrix3d R = body.X_WB.rotation.toRotationMatrix();
   const bool one_axis = std::ranges::count(body.locked_rotation, true) == 2;
@@ -64,7 +65,7 @@ Pose advanced(const Pose& pose, const RigidIpcBody& body, double dt) {
           .rotation = rotation_from_vector(dt * body.angular_velocity) * pose.rotation};
 }
 
-/// Goes on from the last waypoint at constant rates, by turns that are the shortest.
+/// Goes on from the last waypoint at constant rates, by shortest turns.
 void go_on(const RigidIpcBody& body, double until, WaypointMotion& motion) {
   constexpr double kQuarterTurn = std::numbers::pi / 2.0;
   constexpr double kMostPieces = 1e4;

@@ -10,7 +10,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The name, or one like it that is not taken; takes it.
+/// Finds a name that is not taken: this one, or one like it; takes it.
 std::string free_name(std::string name, std::set<std::string>& taken) {
   while (!taken.insert(name).second) {
     name += "'";
@@ -18,7 +18,7 @@ std::string free_name(std::string name, std::set<std::string>& taken) {
   return name;
 }
 
-/// Returns the names.
+/// Names the bodies. Returns the names.
 std::set<std::string> name_bodies(const std::vector<RigidIpcOrigin>& origins, Scene& scene) {
   std::map<std::string, int> count;
   for (const RigidIpcOrigin& origin : origins) {
@@ -35,7 +35,8 @@ std::set<std::string> name_bodies(const std::vector<RigidIpcOrigin>& origins, Sc
   return taken;
 }
 
-/// Bodies that do not move freely are of one group, with all of the groups that they are in.
+/// Groups the bodies. Those that do not move freely form one group, with all groups that they are
+/// in.
 void group_bodies(const std::vector<RigidIpcOrigin>& origins, std::set<std::string> names,
                   Scene& scene) {
   constexpr double kNone = -1.0;

@@ -13,21 +13,21 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Where a body comes from.
+/// The origin of a body in the file.
 struct RigidIpcOrigin {
   std::string name;
-  std::size_t number = 0;  ///< In the file.
+  std::size_t number = 0;  ///< Number in the file.
   bool is_free = false;
   double group = -1.0;  ///< Negative: a group of its own.
 };
 
-/// Gives the scene's bodies unique names, and the scene groups of bodies that do not touch each
+/// Gives the scene's bodies unique names, and makes scene groups of bodies that do not touch each
 /// other.
 ///
-/// Bodies that are not free are of one scene group, with all of the groups that these are in. The
-/// others keep their groups.
+/// All bodies that are not free form one scene group. The groups of these bodies join it with all
+/// of their members. The other groups stay.
 ///
-/// @param origins  of each body of the scene
+/// @param origins  one for each body of the scene
 void name_and_group(const std::vector<RigidIpcOrigin>& origins, Scene& scene);
 
 }  // namespace firstcontact::detail

@@ -13,13 +13,13 @@
 
 namespace firstcontact::detail {
 
-/// The key by which a fixture is known.
+/// The key that identifies a fixture.
 inline constexpr std::string_view kRigidIpcProblem = "rigid_body_problem";
 
 /// Whether a JSON document is a fixture of Rigid IPC.
 [[nodiscard]] bool is_rigid_ipc(const JsonValue& root);
 
-/// Reads what keys hold. Unknown keys are warnings, those that begin with '#' comments.
+/// Reads the values of keys. Unknown keys are warnings, those that begin with '#' comments.
 class RigidIpcKeys {
  public:
   /// @param read  outlives this
@@ -28,7 +28,7 @@ class RigidIpcKeys {
   [[nodiscard]] const JsonReader& read() const { return read_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// An object. Warns of keys other than these.
+  /// Reads an object. Warns of keys other than these.
   const JsonObject& object(const JsonValue& value, const std::vector<std::string_view>& known);
 
   [[nodiscard]] double positive_or(const JsonObject& object, std::string_view key,
@@ -36,7 +36,7 @@ class RigidIpcKeys {
   [[nodiscard]] Eigen::Vector3d vector_or_zero(const JsonObject& object,
                                                std::string_view key) const;
 
-  /// Degrees, or what else there is in degrees, as radians.
+  /// Reads a vector in degrees as radians; a rate in degrees likewise.
   [[nodiscard]] Eigen::Vector3d degrees_or_zero(const JsonObject& object,
                                                 std::string_view key) const;
 

@@ -25,7 +25,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// How many vertices an OBJ text has; 0 where it has elements, or anything else than vertices.
+/// Counts the vertices of an OBJ text; 0 where it has elements, or anything other than vertices.
 std::size_t count_if_alone(std::string_view text) {
   std::size_t count = 0;
   while (!text.empty()) {
@@ -41,7 +41,7 @@ std::size_t count_if_alone(std::string_view text) {
   return count;
 }
 
-/// As read_mesh, but that vertices alone are points.
+/// Parses a mesh as read_mesh, except that vertices alone are points.
 Mesh parse(const fs::path& path, std::string text) {
   if (path.extension() != ".obj") {
     return read_mesh(path);

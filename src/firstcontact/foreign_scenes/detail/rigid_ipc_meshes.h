@@ -20,12 +20,14 @@ namespace firstcontact::detail {
 /// Finds and reads meshes, each file once.
 class RigidIpcMeshes {
  public:
+  /// Begins without meshes.
+  ///
   /// @param fixture  the file that names the meshes
   explicit RigidIpcMeshes(std::filesystem::path fixture) : fixture_(std::move(fixture)) {}
 
-  /// The file that a name means: beside the fixture, or in a folder `meshes` of a folder above it.
+  /// Finds the file of a name: beside the fixture, or in a folder `meshes` of a folder above it.
   ///
-  /// @throws ParseError that says where it looked
+  /// @throws ParseError that lists the places where it looked
   [[nodiscard]] std::filesystem::path find(const JsonValue& name, const JsonReader& read) const;
 
   /// Loads a mesh, welded. A file of vertices alone is a cloud of points.
@@ -33,10 +35,10 @@ class RigidIpcMeshes {
   /// @throws ParseError
   const Mesh& load(const std::filesystem::path& path);
 
-  /// SHA-256 of what was read, a line for each file.
+  /// Lists SHA-256 of the files that were read, a line for each.
   [[nodiscard]] std::string digests() const;
 
-  /// The files that were read.
+  /// Lists the files that were read.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
  private:
@@ -49,15 +51,17 @@ class RigidIpcMeshes {
   std::map<std::filesystem::path, Loaded> loaded_;
 };
 
-/// [m]  From the least to the greatest coordinate of all vertices.
+/// [m]  Computes the size of a mesh along each axis.
 [[nodiscard]] Eigen::Vector3d extent(const Mesh& mesh);
 
+/// Scales a mesh.
+///
 /// @param factors  for x, y, z
 [[nodiscard]] Mesh scaled(Mesh mesh, const Eigen::Vector3d& factors);
 
 [[nodiscard]] Mesh moved(Mesh mesh, const Eigen::Vector3d& translation);
 
-/// The sets of triangles that share vertices, each a mesh of its own.
+/// Splits a mesh into the sets of triangles that share vertices, each a mesh of its own.
 [[nodiscard]] std::vector<Mesh> split_components(const Mesh& mesh);
 
 }  // namespace firstcontact::detail

@@ -14,13 +14,13 @@ namespace firstcontact::detail {
 struct WorldJoint {
   const JsonValue& name;
   const JsonValue& transform;
-  MessagePose base;  ///< Of the root link in the world.
+  MessagePose base;  ///< Pose of the root link in the world.
 };
 
-/// Refuses keys that a state doesn't have.
+/// Refuses unknown keys of a state.
 void require_state_keys(const JsonValue& state, const JsonReader& read);
 
-/// Reads multi_dof_joint_state, which has at most one joint here.
+/// Reads multi_dof_joint_state, which may have at most one joint here.
 [[nodiscard]] std::optional<WorldJoint> read_world_joint(const JsonValue& state,
                                                          const JsonReader& read);
 
