@@ -105,7 +105,7 @@ void ContactLoop::Implementation::begin_pairs() {
   };
   for (std::size_t tool = 0; tool < tools(); ++tool) {
     for (std::size_t other = tool + 1; other < first_link(); ++other) {
-      // The first tool is the other member of a pair of tools.
+      // In a pair of tools the first tool is the other member.
       add(other < tools() ? tool : other, other < tools() ? other : tool);
     }
   }
@@ -151,7 +151,7 @@ void ContactLoop::Implementation::set_frames() {
   set_link_frames();
 }
 
-/// Names the members of a touch.
+/// Sets the members of a touch.
 void ContactLoop::Implementation::number(HapticTouch& touch, std::size_t other,
                                          std::size_t tool) const {
   touch.members = {other, tool};

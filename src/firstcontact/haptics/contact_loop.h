@@ -52,7 +52,7 @@ struct HapticTouch {
 /// The account of a cycle of the contact loop.
 struct HapticCycle {
   std::uint64_t index = 0;  ///< Number of the cycle, from 1.
-  double asked = 0.0;       ///< [s]  Time that was asked for.
+  double asked = 0.0;       ///< [s]  Time that was requested.
   /// [s]  Time by which courses moved on; less than `asked` where they waited for a tool.
   double lasted = 0.0;
   /// [m]  Proven: the least distance of a tool in this cycle is at least this. Infinite where
@@ -102,8 +102,8 @@ struct ContactLoopOptions {
 ///
 /// Source: M. Ortega, S. Redon, S. Coquillart, "A six degree-of-freedom god-object method for
 /// haptic display of rigid bodies with surface properties", IEEE Transactions on Visualization and
-/// Computer Graphics 13 (2007). Here friction is a part of the projection, and the metric is that
-/// of the spring, so that its force is the sum of the contact forces.
+/// Computer Graphics 13 (2007). Here friction is a part of the projection. The metric is that of
+/// the spring, so that its force is the sum of the contact forces.
 ///
 /// The same on every run where no deadline is given.
 class FIRSTCONTACT_API ContactLoop {
@@ -120,14 +120,14 @@ class FIRSTCONTACT_API ContactLoop {
 
   [[nodiscard]] const HapticScene& scene() const;
   [[nodiscard]] double contact_distance() const;  ///< [m]
-  [[nodiscard]] double time() const;              ///< [s]  For which the surroundings moved.
+  [[nodiscard]] double time() const;              ///< [s]  Time for which the environment moved.
   [[nodiscard]] const Pose& pose(std::size_t member) const;
-  [[nodiscard]] std::span<const double> joints() const;  ///< [rad or m]  Of all tools.
+  [[nodiscard]] std::span<const double> joints() const;  ///< [rad or m]  Joints of all tools.
 
   /// Runs a cycle. The result holds until the next one.
   ///
   /// @param targets   of each tool; joints stop at their limits
-  /// @param dt        [s]  > 0; the surroundings move for so long
+  /// @param dt        [s]  > 0; the environment moves for this time
   /// @param stamp_ns  [ns]  goes into the contact set of this cycle
   /// @param deadline  no round begins after it; a search that runs then stops with what is proven
   /// @throws std::invalid_argument if an argument is outside its range

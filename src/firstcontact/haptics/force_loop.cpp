@@ -20,12 +20,13 @@ using detail::Coordinates;
 using Eigen::Vector3d;
 
 constexpr double kNanosecond = 1e-9;  // [s]
-constexpr double kMostScale = 1e6;    // [-]  Of a mapping: targets stay where doubles resolve.
+// [-]  Greatest scale of a mapping, so that doubles resolve targets.
+constexpr double kMostScale = 1e6;
 
-/// [s]  Ticks farther apart count as this: what was not watched is not made up for.
+/// [s]  Longest time of a tick that counts: the loop does not make up for a longer pause.
 constexpr double kLongestTick = 0.01;
 
-/// [s]  Over which velocities are smoothed, for damping.
+/// [s]  Time over which velocities are smoothed, for damping.
 constexpr double kSmoothing = 0.002;
 
 std::uint32_t bit(ForceFault fault) noexcept { return static_cast<std::uint32_t>(fault); }
@@ -82,14 +83,14 @@ struct Wrench {
   Vector3d torque = Vector3d::Zero();  // [N m]
 };
 
-/// [-]  The part of a vector that is no longer than `most`.
+/// [-]  The fraction of a vector that is no longer than `most`.
 double part_within(double most, const Vector3d& vector) noexcept {
   const double length = vector.norm();
   return length > most ? most / length : 1.0;
 }
 
-/// Cuts both by the same part: a wrench of contacts stays one. What a limit of 0 forbids is left
-/// out instead, as a device without torque has its force nevertheless.
+/// Cuts both by the same fraction: so the wrench stays one of contacts. A limit of 0 removes its
+/// part instead, as a device without torque still has its force.
 bool cut_to(double force, double torque, Wrench& wrench) noexcept {
   const double by_force = force > 0.0 ? part_within(force, wrench.force) : 1.0;
   const double by_torque = torque > 0.0 ? part_within(torque, wrench.torque) : 1.0;
@@ -101,7 +102,7 @@ bool cut_to(double force, double torque, Wrench& wrench) noexcept {
   return part < 1.0 || is_left_out;
 }
 
-/// Lets a wrench change by no more, and in its direction.
+/// Limits the change of a wrench, along the direction of the change.
 bool slew_to(double force, double torque, const Wrench& before, Wrench& wrench) noexcept {
   const Vector3d change = wrench.force - before.force;
   const Vector3d turn = wrench.torque - before.torque;
@@ -117,7 +118,7 @@ bool slew_to(double force, double torque, const Wrench& before, Wrench& wrench) 
 
 namespace detail {
 
-/// What is kept of a tool from tick to tick.
+/// The state of a tool that is kept from tick to tick.
 struct FeltTool {
   FeltTool(TargetFollower its, GripFollower of_grips)
       : follower(std::move(its)), grips(std::move(of_grips)) {}
@@ -131,10 +132,10 @@ struct FeltTool {
   Eigen::Quaterniond R_DW = Eigen::Quaterniond::Identity();
   Pose last_target;
   bool has_last = false;
-  Vector3d velocity = Vector3d::Zero();  // [m/s]  Of the target, smoothed.
-  Vector3d turning = Vector3d::Zero();   // [rad/s]
-  bool is_felt = false;                  // It was engaged in the last tick.
-  double share = 0.0;                    // [-]  The part of its limited force that acts.
+  Vector3d velocity = Vector3d::Zero();  // [m/s]  Velocity of the target, smoothed.
+  Vector3d turning = Vector3d::Zero();   // [rad/s]  Angular velocity of the target, smoothed.
+  bool is_felt = false;                  // Whether it was engaged in the last tick.
+  double share = 0.0;                    // [-]  The fraction of its limited force that acts.
 };
 
 }  // namespace detail
@@ -253,8 +254,8 @@ class ForceLoop::Implementation {
     tool.has_last = tool.follower.is_engaged();
   }
 
-  /// [s]  How far surfaces have gone on from where a set has them; negative while its cycle is not
-  /// over. Surfaces of a set that is not fresh stop.
+  /// [s]  Computes the time for which surfaces have moved on since the places in a set; negative
+  /// while its cycle is not over. Surfaces of a set that is not fresh stop.
   [[nodiscard]] double seconds_since(const HapticContactSet& set,
                                      std::int64_t now_ns) const noexcept {
     const std::int64_t most = std::max(options_.limits.fresh_ns, set.lasted_ns);
@@ -262,7 +263,8 @@ class ForceLoop::Implementation {
     return kNanosecond * static_cast<double>(age - set.lasted_ns);
   }
 
-  /// [s]  Damping looks ahead: at the target, and so at what moves below it.
+  /// [s]  Adds the look-ahead of damping: it holds for the target, and so for the surfaces below
+  /// it.
   [[nodiscard]] double felt_after(const HapticContact& contact, double seconds) const noexcept {
     return seconds + tools_[static_cast<std::size_t>(contact.tool)].look_ahead;
   }
@@ -312,8 +314,8 @@ class ForceLoop::Implementation {
     return found;
   }
 
-  /// Cuts a force to what springs give that are stretched to the targets, and as far as surfaces
-  /// move. Contacts that contradict each other would have any force.
+  /// Cuts a force to that of springs stretched to the targets, plus the path of the surfaces.
+  /// Without the cut, contacts that contradict each other could have any force.
   void cut_to_springs(const HapticContactSet& set, const Coordinates& wanted, double seconds,
                       Coordinates& force) const noexcept {
     double squares_of_way = 0.0;
@@ -335,7 +337,7 @@ class ForceLoop::Implementation {
     }
   }
 
-  /// [-]  The part of a force that the age of the set allows.
+  /// [-]  The fraction of a force that the age of the set permits.
   [[nodiscard]] double share_of_age() const noexcept {
     const HapticLimits& limits = options_.limits;
     if (tick_.age_ns <= limits.fresh_ns) {
@@ -347,8 +349,8 @@ class ForceLoop::Implementation {
                      static_cast<double>(limits.stale_ns - limits.fresh_ns);
   }
 
-  /// The share falls at once. It grows by the ramp: after an engagement, and where a set is fresh
-  /// again.
+  /// Sets the share of a tool. The share falls at once. It grows by the ramp: after an engagement,
+  /// and where a set is fresh again.
   void set_share(detail::FeltTool& tool, double seconds, std::uint32_t& faults) const noexcept {
     if (!tool.follower.is_engaged()) {
       tool.is_felt = false;
@@ -365,14 +367,14 @@ class ForceLoop::Implementation {
     tool.is_felt = true;
   }
 
-  /// Whether a force would reach a device that is lost, or is no number.
+  /// Whether a force ends at once, as the device is lost or a number is not finite.
   static bool ends_at_once(const ToolTick& tick) noexcept {
     constexpr std::uint32_t kAtOnce = static_cast<std::uint32_t>(ForceFault::device) |
                                       static_cast<std::uint32_t>(ForceFault::not_finite);
     return (tick.faults & kAtOnce) != 0;
   }
 
-  /// What contacts add to a tool, about the target's origin.
+  /// Computes the wrench of contacts on a tool, about the target's origin.
   [[nodiscard]] Wrench wrench_of(std::size_t k, const Coordinates& force) const noexcept {
     const detail::FeltTool& tool = tools_[k];
     Wrench wrench;
@@ -399,7 +401,7 @@ class ForceLoop::Implementation {
     }
     const HapticLimits& limits = options_.limits;
     Wrench wrench = wrench_of(k, force);
-    // Limits are those of the device, which feels the force times the scale.
+    // The limits are those of the device, which feels the force times the scale.
     const bool is_limited = cut_to(limits.force / tool.scale, limits.torque, wrench);
     wrench.force *= tool.share;
     wrench.torque *= tool.share;
@@ -423,7 +425,7 @@ class ForceLoop::Implementation {
     tick.command.torque_D = tool.R_DW * torque_W;
   }
 
-  /// Gives the efforts of joints, and what they are on the grips that move them.
+  /// Computes the efforts of joints, and the efforts on the grips that move them.
   void give_efforts(std::size_t k, const Coordinates& force, double seconds) noexcept {
     ToolTick& tick = tick_.tools[k];
     const detail::FeltTool& tool = tools_[k];
@@ -462,7 +464,8 @@ class ForceLoop::Implementation {
   detail::ConeProjection cone_;
   detail::ToolFrames frames_;
   std::vector<detail::FeltTool> tools_;
-  std::optional<Coordinates> solved_ = {};  // [m]  The last force since tools touch.
+  // [m]  The last force that was solved since tools touch.
+  std::optional<Coordinates> solved_ = {};
   std::uint64_t taken_ = 0;
   bool has_ticked_ = false;
   ForceTick tick_;

@@ -121,8 +121,8 @@ struct ForceTick {
 
 /// Computes forces from device poses and the newest contact set.
 ///
-/// A force is that of the spring between the target and the god-object, as far as contacts permit
-/// the god-object to go: the sum of contact forces in Coulomb's cones. It is exactly 0 where no
+/// A force is that of the spring between the target and the place to which contacts let the
+/// god-object go. It is the sum of contact forces in Coulomb's cones. It is exactly 0 where no
 /// contact presses, however far the god-object lags behind. With damping, target and surfaces are
 /// extrapolated by damping / stiffness seconds, so that forces stay in the cones. The effort of a
 /// joint is that of its own spring likewise.

@@ -14,9 +14,9 @@ namespace firstcontact {
 namespace detail {
 namespace {
 
-/// At least so many ticks, and one.
+/// Rounds up to whole ticks, at least one.
 std::int64_t whole_ticks(double ticks) {
-  constexpr double kRounding = 1e-6;  // [ticks]  Of a quotient of rates.
+  constexpr double kRounding = 1e-6;  // [ticks]  Rounding of a quotient of rates.
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(ticks - kRounding)));
 }
 
@@ -35,8 +35,9 @@ SessionPeriods session_periods(const HapticSessionOptions& options) {
         "HapticSessionOptions::contact_latency_ns must be 0 to 10,000,000,000");
   }
   constexpr double kSecond = 1e9;  // [ns]
-  // A cycle begins with a tick, and contacts are felt in one. Ticks are counted by the rates that
-  // are asked for: a period is rounded to a nanosecond, and three of them are no millisecond.
+  // A cycle begins with a tick, and contacts are felt in one. Ticks are counted by the requested
+  // rates: a period is rounded to a nanosecond, and three rounded thirds of a millisecond do not
+  // make one.
   const std::int64_t latency =
       whole_ticks(static_cast<double>(options.contact_latency_ns) / kSecond * options.force_rate);
   const std::int64_t cycle = whole_ticks(options.force_rate / options.contact_rate);

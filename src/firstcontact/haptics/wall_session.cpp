@@ -29,8 +29,9 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr int kForcePriority = 80;
 constexpr int kContactPriority = 60;
-constexpr std::size_t kRing = 1U << 14;         // Ticks: 4 s at 4 kHz.
-constexpr std::int64_t kEmptyNs = 200'000'000;  // So long the loop that does nothing runs.
+constexpr std::size_t kRing = 1U << 14;  // [ticks]  4 s at 4 kHz.
+// [ns]  Time for which the loop that does nothing runs.
+constexpr std::int64_t kEmptyNs = 200'000'000;
 
 std::int64_t cpu_now_ns() noexcept {
   timespec now{};
@@ -42,7 +43,7 @@ void sleep_until_ns(std::int64_t at_ns) {
   std::this_thread::sleep_until(WallClock::time_point(std::chrono::nanoseconds(at_ns)));
 }
 
-/// Where the devices will want the tools when a cycle has ended, as the force loop hands it to the
+/// The targets that the devices want at the end of a cycle, as the force loop hands them to the
 /// contact loop.
 struct HandedTargets {
   std::uint64_t sequence = 0;
@@ -52,18 +53,18 @@ struct HandedTargets {
   std::array<double, kMostHapticJoints> joints = {};
 };
 
-/// What both threads and the caller share.
+/// The data that both threads and the caller share.
 struct SharedSession {
   MailSlot<HapticContactSet> sets;
   MailSlot<HandedTargets> targets;
   detail::TickRing<ForceTick> ticks{kRing};
-  std::mutex cycles_mutex;  // Of the contact loop and the caller alone.
+  std::mutex cycles_mutex;  // For the contact loop and the caller alone.
   std::deque<std::pair<HapticCycle, std::int64_t>> cycles;
   std::atomic<bool> is_over{false};
   std::atomic<bool> force_is_done{false};
-  std::array<std::exception_ptr, 2> failures;  // Of the force loop, of the contact loop.
+  std::array<std::exception_ptr, 2> failures;  // Those of the force loop, then of the contact loop.
 
-  /// Runs a thread's work; what it throws ends the session, and is the caller's.
+  /// Runs a thread's work. An exception ends the session, and is passed to the caller.
   template <class Work>
   void guard(std::size_t thread, const Work& work) noexcept {
     try {
@@ -117,7 +118,7 @@ class ForceThread {
       make_tick(now);
       next += period_ns_;
       const std::int64_t behind = steady_now_ns() - next;
-      if (behind > period_ns_) {  // Ticks whose time has passed are not made up for.
+      if (behind > period_ns_) {  // Ticks whose time has passed are skipped.
         const std::int64_t skipped = behind / period_ns_;
         report_.skipped_ticks += static_cast<std::uint64_t>(skipped);
         next += skipped * period_ns_;
@@ -135,7 +136,7 @@ class ForceThread {
     }
   }
 
-  /// What is logged as the command is what the device can follow.
+  /// Limits the command to what the device can follow, for the log.
   static void limit(ToolTick& tool, const DeviceCapabilities& capabilities) noexcept {
     const ForceCommand allowed = limited(tool.command, capabilities);
     if (allowed.force_D != tool.command.force_D || allowed.torque_D != tool.command.torque_D ||
@@ -235,11 +236,11 @@ class ContactThread {
   WallSessionReport& report_;
 };
 
-/// Hands the caller what has come.
+/// Hands the new ticks and cycles to the caller.
 void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)>& on_tick,
                const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle) {
   ForceTick tick;
-  // No more than there is room for: whoever is too slow must still hear the stop.
+  // At most as many as the ring has room for: a caller that is too slow must still see the stop.
   for (std::size_t k = 0; k < kRing && shared.ticks.pop(tick); ++k) {
     if (on_tick) {
       on_tick(tick);
@@ -257,8 +258,8 @@ void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)
   }
 }
 
-/// Puts the contacts at the start, as of a tick before the first one: that has no set else, and
-/// would be stale.
+/// Puts the contacts at the start as those of a tick before the first one. The first tick would
+/// otherwise have no set, and be stale.
 void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns,
                            std::int64_t period_ns, SharedSession& shared) {
   HapticContactSet set = contacts.contact_set();
@@ -267,7 +268,7 @@ void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns
   shared.sets.put(set);
 }
 
-/// Ends both threads, whatever the caller's functions throw.
+/// Ends both threads, even where the caller's functions throw.
 class RunningThreads {
  public:
   RunningThreads(SharedSession& shared, ForceThread& force, ContactThread& contact)

@@ -7,14 +7,13 @@
 namespace firstcontact::detail {
 namespace {
 
-/// [-]  Rows whose part outside of the active ones is shorter than this, by its square, depend on
-/// them.
+/// [-]  Square of the length below which the part of a row outside of the active ones counts as 0.
 constexpr double kDependent = 1e-18;
 
-/// [-]  A projection whose s is off by more than this, by the tolerance, is not solved.
+/// [-]  Greatest error of s in a solved projection, by the tolerance.
 constexpr double kSettled = 1000.0;
 
-/// [rounds]  Of s, at most.
+/// [rounds]  Most rounds that update s.
 constexpr int kRoundsOfSlack = 10;
 
 }  // namespace
@@ -109,7 +108,8 @@ ConeProjection::Violated ConeProjection::most_violated(const Coordinates& x) con
   return most;
 }
 
-/// Cholesky's factor of the products of the active rows. Rows before the first that changed stay.
+/// Computes Cholesky's factor of the products of the active rows. Rows before the first that
+/// changed stay.
 ///
 /// @returns  false where they depend on each other
 bool ConeProjection::factorise() noexcept {
@@ -157,7 +157,7 @@ void ConeProjection::remove(std::size_t k) noexcept {
   factored_ = std::min(factored_, k);
 }
 
-/// Begins where the active half spaces are met with equality; those that would pull are dropped.
+/// Starts where the active half spaces are met with equality; those that would pull are dropped.
 void ConeProjection::restart(const Coordinates& x_free) noexcept {
   for (std::size_t k = 0; k < active_count_; ++k) {
     set_least(active_[k]);
@@ -188,7 +188,7 @@ void ConeProjection::restart(const Coordinates& x_free) noexcept {
   }
 }
 
-/// Adds a half space that is left, and drops those that would pull.
+/// Adds a half space that is violated, and drops those that would pull.
 ///
 /// @returns  false where none can be dropped, so that no displacement meets all
 bool ConeProjection::add_cut(Cut cut, int most_pivots) noexcept {
@@ -256,7 +256,7 @@ bool ConeProjection::satisfy_all(double tolerance, int most_pivots) noexcept {
 
 /// Moves s of each contact towards mu |u_t|.
 ///
-/// @returns  [m]  by how much it was off
+/// @returns  [m]  the greatest error of s before
 double ConeProjection::renew_slacks() noexcept {
   double off = 0.0;
   double product = 0.0;

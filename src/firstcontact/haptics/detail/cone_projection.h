@@ -1,5 +1,5 @@
 /// @file
-/// The small projection of the force loop: the displacement that contacts with friction allow.
+/// The small projection of the force loop: the displacement that contacts with friction permit.
 
 #pragma once
 
@@ -11,8 +11,9 @@
 
 namespace firstcontact::detail {
 
-/// Coordinates of all tools: for each the translation of its centre, then its rotation vector times
-/// the length by which the metric weighs turning. Those of joints follow, each times its length.
+/// The coordinates of all tools: for each the translation of its centre, then its rotation vector
+/// times the length by which the metric weighs turning. Those of joints follow, each times its
+/// length.
 inline constexpr std::size_t kMostCoordinates = 6 * kMostTools + kMostHapticJoints;
 using Coordinates = std::array<double, kMostCoordinates>;
 
@@ -21,17 +22,19 @@ using Coordinates = std::array<double, kMostCoordinates>;
 struct ConeContact {
   std::array<Coordinates, 3> rows = {};  ///< Normal, then two tangents.
   std::array<double, 3> shift = {};      ///< [m]  Displacement of the other surface.
-  double way = 0.0;                      ///< [m]  u_n >= -way
-  double friction = 0.0;                 ///< [-]
+  double way = 0.0;       ///< [m]  Distance by which the surfaces may come nearer: u_n >= -way.
+  double friction = 0.0;  ///< [-]
 };
 
+/// The answer of a projection.
 struct ConeProjectionResult {
-  Coordinates x = {};      ///< [m]  The allowed displacement.
-  Coordinates force = {};  ///< [m]  x less the free one: what contacts add. Exactly 0 where none
-                           ///< presses.
-  int pressing = 0;        ///< Contacts with an impulse.
-  int pivots = 0;          ///< Changes of the active set.
-  bool is_solved = false;  ///< Else the pivots were spent, or the contacts contradict each other.
+  Coordinates x = {};  ///< [m]  The displacement that contacts permit.
+  /// [m]  x less the free displacement, caused by contacts. Exactly 0 where none presses.
+  Coordinates force = {};
+  int pressing = 0;  ///< Number of contacts with an impulse.
+  int pivots = 0;    ///< Number of changes of the active set.
+  /// False where the pivots were spent, or the contacts contradict each other.
+  bool is_solved = false;
 };
 
 /// Projects a displacement on contacts with Coulomb friction, in bounded work and fixed memory.
@@ -41,23 +44,26 @@ struct ConeProjectionResult {
 /// Mathematical and Computer Modelling 28 (1998)).
 ///
 /// Method. For a given s in place of mu |u_t| it is the projection on a convex set, u_n + way + s
-/// >= mu d . u_t for all unit d. A dual active set method (Goldfarb, Idnani, "A numerically stable
-/// dual method for solving strictly convex quadratic programs", Mathematical Programming 27 (1983))
-/// adds the half space that is left the farthest: d is the direction in which the contact slides.
-/// So the cone is round, and an impulse lies in it wherever the work ends. s is then found by
-/// Anderson's acceleration over one step. The active set and s are kept for the next projection.
+/// >= mu d . u_t for all unit d. A dual active set method adds the half space that is violated
+/// most: d is the direction in which the contact slides. (Goldfarb, Idnani, "A numerically stable
+/// dual method for solving strictly convex quadratic programs", Mathematical Programming 27
+/// (1983).) So the cone is round, and an impulse lies in it even where the work ends early. s is
+/// then found by Anderson's acceleration over one step. The active set and s are kept for the next
+/// projection.
 ///
 /// After the construction nothing is allocated.
 class ConeProjection {
  public:
+  /// Reserves the memory.
+  ///
   /// @param coordinates  6 or 12, and one for each joint
   /// @param capacity     most contacts
   ConeProjection(std::size_t coordinates, std::size_t capacity);
 
-  /// Forgets all contacts, and what was active.
+  /// Forgets all contacts and the active set.
   void clear() noexcept;
 
-  /// Adds a contact. Beyond the capacity it is left out.
+  /// Adds a contact. A contact beyond the capacity is left out.
   void add(const ConeContact& contact) noexcept;
 
   /// Moves the other surface of a contact.
@@ -69,13 +75,13 @@ class ConeProjection {
 
   /// Projects a free displacement.
   ///
-  /// @param tolerance    [m]  half spaces may be left by so much
+  /// @param tolerance    [m]  half spaces may be violated by this much
   /// @param most_pivots  over all rounds
   [[nodiscard]] ConeProjectionResult project(const Coordinates& x_free, double tolerance,
                                              int most_pivots) noexcept;
 
-  /// [m]  Impulses of the last projection, times the inverse metric: along the normal, then the
-  /// tangents of a contact.
+  /// [m]  The impulse of a contact in the last projection, times the inverse metric: along the
+  /// normal, then the tangents.
   [[nodiscard]] std::array<double, 3> impulse(std::size_t contact) const noexcept;
 
  private:
@@ -87,6 +93,7 @@ class ConeProjection {
     double least = 0.0;
     double impulse = 0.0;
   };
+  /// The half space that is violated most.
   struct Violated {
     std::size_t contact = 0;
     std::array<double, 2> direction = {};
@@ -111,14 +118,14 @@ class ConeProjection {
   std::size_t capacity_;
   std::vector<ConeContact> contacts_;
   std::vector<double> slack_;       // [m]  s of each contact.
-  std::vector<double> last_slack_;  // [m]  That of the round before.
+  std::vector<double> last_slack_;  // [m]  s of the round before.
   std::vector<double> last_error_;  // [m]  mu |u_t| - s of the round before.
   std::vector<double> error_;       // [m]
   bool has_last_ = false;
   std::array<Cut, kMostCoordinates> active_ = {};
   std::size_t active_count_ = 0;
   std::array<std::array<double, kMostCoordinates>, kMostCoordinates> factor_ = {};  // Lower.
-  std::size_t factored_ = 0;  // Rows of it that are those of the active cuts.
+  std::size_t factored_ = 0;  // Rows of the factor that belong to the active cuts.
   Coordinates x_ = {};
   int pivots_ = 0;
 };

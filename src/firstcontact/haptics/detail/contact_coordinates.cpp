@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds the displacement along an axis of the point of one tool.
+/// Adds the displacement along an axis of a point of one tool.
 void add_point_row(const Vector3d& axis, const Vector3d& point, const ToolFrames& frames,
                    double sign, std::size_t tool, Coordinates& row) noexcept {
   const Vector3d turn = (point - frames.p_WC[tool]).cross(axis) / frames.lengths[tool];
@@ -22,7 +22,7 @@ void add_point_row(const Vector3d& axis, const Vector3d& point, const ToolFrames
   }
 }
 
-/// Adds the displacement along an axis of the point of a link by the joints on which it hangs.
+/// Adds the displacement along an axis of a point of a link, by the joints on which it hangs.
 void add_joint_rows(const Vector3d& axis, const Vector3d& point, const ToolFrames& frames,
                     double sign, int link, Coordinates& row) noexcept {
   while (link >= 0) {
@@ -65,7 +65,7 @@ ConeContact limit_of_joint(std::size_t joint, double side, const ToolFrames& fra
   const HapticJoint& limits = frames.links->joints()[joint];
   const double at = frames.joints[joint];
   ConeContact cone{.way = std::max(0.0, side > 0.0 ? at - limits.lower : limits.upper - at)};
-  // In the unit of the joint, so that its room needs no weight.
+  // In the unit of the joint, so that its `way` needs no weight.
   cone.rows[0][frames.links->coordinate_of(joint)] = side / frames.joint_weights[joint];
   return cone;
 }
@@ -88,7 +88,7 @@ ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
   const auto tool = static_cast<std::size_t>(contact.tool);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d axis = axes.row(static_cast<int>(k));
-    if (contact.other != contact.tool) {  // Of one tool the two rows are opposite.
+    if (contact.other != contact.tool) {  // For one tool the two rows cancel.
       add_point_row(axis, contact.point, frames, 1.0, tool, cone.rows[k]);
       if (contact.other >= 0) {
         const auto other = static_cast<std::size_t>(contact.other);

@@ -14,19 +14,18 @@
 
 namespace firstcontact::detail {
 
-/// Where the tools are, and how much turning them counts.
+/// The places of the tools, and the weights of their turns.
 struct ToolFrames {
-  std::array<Eigen::Vector3d, kMostTools> p_WC = {};  ///< [m]  Centres.
-  /// [m]  A turn by an angle counts as much as a way of this length times the angle.
+  std::array<Eigen::Vector3d, kMostTools> p_WC = {};  ///< [m]  Centres of the tools.
+  /// [m]  A turn by an angle counts as much as a displacement of this length times the angle.
   std::array<double, kMostTools> lengths = {};
-  /// [-]  All coordinates of a tool are so many times larger: the root of its stiffness by that of
-  /// the first.
+  /// [-]  Factor of all coordinates of a tool: the root of its stiffness by that of the first.
   std::array<double, kMostTools> weights = {1.0, 1.0};
   const ToolLinks* links = nullptr;                    ///< Null where no tool has joints.
-  std::array<HapticAxis, kMostHapticLinks> axes = {};  ///< Of their joints.
-  std::array<double, kMostHapticJoints> joints = {};   ///< [rad or m]  Where they are.
-  /// [m/rad or -]  A coordinate is so many times that of the joint: the root of its stiffness by
-  /// that of the first tool.
+  std::array<HapticAxis, kMostHapticLinks> axes = {};  ///< Axes of the joints of the links.
+  std::array<double, kMostHapticJoints> joints = {};   ///< [rad or m]  Positions of the joints.
+  /// [m/rad or -]  Factor of the coordinate of a joint: the root of its stiffness by that of the
+  /// first tool.
   std::array<double, kMostHapticJoints> joint_weights = {};
 
   [[nodiscard]] std::size_t joint_count() const {
@@ -40,27 +39,27 @@ struct ToolFrames {
 /// Sets the links and the weights of joints; `links` outlives the frames.
 void weigh_joints(const ToolLinks& links, double stiffness_of_first_tool, ToolFrames& frames);
 
-/// The rows of a contact. Its normal and two tangents make a rotation.
+/// Computes the rows of a contact. Its normal and two tangents make a rotation.
 ///
-/// @param seconds  from where the contact was found the surroundings have gone on for so long
+/// @param seconds  for which the environment has moved on since the contact was found
 [[nodiscard]] ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
                                        double seconds) noexcept;
 
-/// What keeps a joint within a limit.
+/// Makes the constraint that keeps a joint within a limit.
 ///
 /// @param side  1 for the lower limit, -1 for the upper one
 [[nodiscard]] ConeContact limit_of_joint(std::size_t joint, double side,
                                          const ToolFrames& frames) noexcept;
 
-/// Whether a limit of a joint is a number.
+/// Whether a limit of a joint is finite.
 [[nodiscard]] bool has_limit(const HapticJoint& joint, double side) noexcept;
 
-/// [m, m/rad ...]  How fast a point of a link goes with the joint of that link or of one on which
-/// it hangs.
+/// [m, m/rad ...]  Computes the rate of a point of a link with the joint of that link, or of one on
+/// which it hangs.
 [[nodiscard]] Eigen::Vector3d rate_with_joint(std::size_t link, const Eigen::Vector3d& point,
                                               const ToolFrames& frames) noexcept;
 
-/// The rows of a contact's normal and two tangents, world axes.
+/// Computes the rows of a contact's normal and two tangents, world axes.
 [[nodiscard]] Eigen::Matrix3d contact_axes(const Eigen::Vector3d& normal) noexcept;
 
 }  // namespace firstcontact::detail

@@ -14,7 +14,7 @@
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {
-/// [s]  The part of a slot in which all courses are straight, to half the contact distance.
+/// [s]  Finds the part of a slot in which all courses are straight, to half the contact distance.
 double ContactLoop::Implementation::straight_slot(double slot) const {
   const double begin = time_ + now_;
   const double from = share(begin);
@@ -32,8 +32,8 @@ double ContactLoop::Implementation::straight_slot(double slot) const {
   return is_whole ? slot : std::clamp(straight, detail::kLeastRestOfRound * slot, slot);
 }
 
-/// Sets how far the bodies with courses go in a part of the cycle: from where they are to where
-/// their courses are then.
+/// Sets the displacements of the bodies with courses in a part of the cycle: from their present
+/// places to their courses at its end.
 void ContactLoop::Implementation::set_courses(double slot) {
   for (std::size_t m = tools(); m < first_link(); ++m) {
     courses_[m] = {};
@@ -60,14 +60,14 @@ void ContactLoop::Implementation::append_piece(std::size_t member, const Displac
   }
 }
 
-/// Makes the plan as far as it is proven, in pieces where links move.
+/// Executes the plan as far as it is proven, in pieces where links move.
 ///
-/// @returns  [-]  the part of it that was made
+/// @returns  [-]  the fraction of it that was executed
 double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, double slot,
                                             double dt, const std::optional<Deadline>& deadline) {
   detail::ToolDisplacements whole = plan.displacements;
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
-    // Limits are met to the residual of the plan.
+    // Limits are kept only to the residual of the plan.
     const HapticJoint& limits = links_.joints()[joint];
     whole.joints[joint] =
         std::clamp(joints_[joint] + whole.joints[joint], limits.lower, limits.upper) -
@@ -94,7 +94,7 @@ double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, d
   return 1.0;
 }
 
-/// Makes a piece of a plan as far as it is proven.
+/// Executes a piece of a plan as far as it is proven.
 double ContactLoop::Implementation::execute_piece(const detail::ToolDisplacements& ways,
                                                   double slot, double dt,
                                                   const std::optional<Deadline>& deadline) {
@@ -165,13 +165,13 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   }
 }
 
-/// Courses wait for the rest of the cycle, if it has one: only tools move in it.
+/// Lets courses wait for the rest of the cycle, if there is any: only tools move in it.
 void ContactLoop::Implementation::begin_wait() {
   wait_from_ = now_;
   are_courses_moving_ = false;
 }
 
-/// All members rest until the end of the cycle. Courses that are not over wait.
+/// Lets all members rest until the end of the cycle. Courses that are not over wait.
 void ContactLoop::Implementation::rest_until(double dt) {
   if (are_courses_moving_ && now_ < dt) {
     begin_wait();
@@ -184,7 +184,7 @@ void ContactLoop::Implementation::rest_until(double dt) {
   }
 }
 
-/// [m]  What the rounding of pieces is a part of.
+/// [m]  The size to which the rounding of pieces is relative.
 double ContactLoop::Implementation::size_of_cycle() const {
   double size = 0.0;
   for (const HapticMemberMotion& motion : cycle_.members) {
@@ -207,7 +207,7 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
       contact.surface_velocity.setZero();
       for (const HapticMemberMotion& motion : cycle_.members) {
         if (motion.member == member && !motion.pieces.empty()) {
-          // How fast it went in this cycle, waiting included; it may have turned several times.
+          // The velocity in this cycle, waiting included; the body may have turned several times.
           Displacement way{.translation =
                                poses_[member].position - motion.pieces.front().X_WB.position};
           for (const HapticPiece& piece : motion.pieces) {
@@ -265,11 +265,11 @@ void ContactLoop::Implementation::slow_courses() {
 /// @param is_end  whether the plan was to go on to the end of the cycle
 bool ContactLoop::Implementation::goes_on_after(const detail::GodObjectPlan& plan, double made,
                                                 bool is_end) {
-  // Among bodies that move, a plan to the end of the cycle is the last one.
+  // Where courses move, a plan to the end of the cycle is the last one.
   const bool is_last_plan = are_courses_moving_ && is_end;
   const bool is_there = made == 1.0 && !plan.is_shortened && (!plan.is_pressed || is_last_plan);
   cycle_.is_converged = is_there;
-  if (is_parting_ && made == 0.0) {  // The way of the device may lead out nevertheless.
+  if (is_parting_ && made == 0.0) {  // The device may lead the tool out nevertheless.
     may_part_ = false;
     return true;
   }
@@ -297,7 +297,7 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
     cycle_.is_converged = true;
     return false;
   }
-  if (!is_worth && slot < straight && share_of_courses_ == 1.0) {  // Only courses are left: all.
+  if (!is_worth && slot < straight && share_of_courses_ == 1.0) {  // Only courses move.
     slot = straight;
     set_courses(slot);
     plan = plan_within_turn(ways);
@@ -307,7 +307,8 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
     slow_courses();
     return true;
   }
-  if (touches_.empty() && !is_last && plan.part < 1.0) {  // The rest has time of its own.
+  // The rest of the plan has time of its own.
+  if (touches_.empty() && !is_last && plan.part < 1.0) {
     slot *= plan.part;
     set_courses(slot);
   }

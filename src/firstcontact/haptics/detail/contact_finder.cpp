@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Whether both surfaces bulge towards each other at a contact. Edges that cross within a flat face
-/// do not count: over it the gap is least elsewhere.
+/// do not count: the gap over the face has its least value elsewhere.
 bool are_outermost(const HapticMember& A, const Eigen::Quaterniond& R_AW, const HapticMember& B,
                    const Eigen::Quaterniond& R_BW, const Contact& contact) {
   const bool are_edges =
@@ -45,7 +45,7 @@ HapticTouch touch_of(const Contact& contact, double friction) {
 
 }  // namespace
 
-/// Of contacts beside each other that face alike the nearest.
+/// Keeps the nearest of contacts that are beside each other and face alike.
 void ContactFinder::keep_nearest_of_many(double width) {
   std::unordered_map<FacingCell, const Contact*, CellHash> nearest;
   for (const Contact* contact : chosen_) {
@@ -59,7 +59,7 @@ void ContactFinder::keep_nearest_of_many(double width) {
   for (const auto& [cell, contact] : nearest) {
     chosen_.push_back(contact);
   }
-  std::ranges::sort(chosen_);  // In the order of the list.
+  std::ranges::sort(chosen_);  // Back in the order of the list.
 }
 
 void ContactFinder::choose(const HapticMember& other, const PlacedShape& other_at,

@@ -1,5 +1,5 @@
 /// @file
-/// Where two members of a haptic scene touch.
+/// Finds the contacts of two members of a haptic scene.
 
 #pragma once
 
@@ -16,10 +16,10 @@
 
 namespace firstcontact::detail {
 
-/// A member of a scene as the contact loop has it.
+/// A member of a scene in the contact loop.
 struct HapticMember {
   Shape shape;
-  double reach = 0.0;     ///< [m]  From the centre of its bounds.
+  double reach = 0.0;     ///< [m]  Reach from the centre of its bounds.
   double friction = 0.0;  ///< [-]
   std::shared_ptr<const SurfaceNeighbours> neighbours = {};
 };
@@ -29,11 +29,12 @@ class ContactFinder {
  public:
   explicit ContactFinder(double contact_distance) : distance_(contact_distance) {}
 
-  /// Appends the places where a tool touches another member: those within the band at which both
-  /// surfaces bulge towards each other, each once; all of them where none does. The numbers of the
-  /// bodies, `way` and `surface_velocity` are left to the caller.
+  /// Appends the places where a tool touches another member. These are the contacts within the band
+  /// at which both surfaces bulge towards each other, each once. Where none does so, all contacts
+  /// are appended. The caller sets the numbers of the bodies, `way` and `surface_velocity`.
   ///
-  /// @returns  [m]  the least distance of all features within the band; infinite where none is
+  /// @returns  [m]  the least distance of all features within the band; infinite where there are
+  ///         none
   double find(const HapticMember& other, const PlacedShape& other_at, const HapticMember& tool,
               const PlacedShape& tool_at, BoxFront& front, std::vector<HapticTouch>& touches);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The contacts that a set lists.
+/// Lists contacts in a contact set.
 
 #pragma once
 

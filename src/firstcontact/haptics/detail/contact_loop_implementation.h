@@ -26,8 +26,8 @@
 
 namespace firstcontact {
 
-/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp, its plans in contact_plan.cpp,
-/// the links of its tools in tool_motion.cpp.
+/// The implementation of a contact loop. It starts in contact_loop.cpp. Its cycles are in
+/// contact_cycle.cpp, its plans in contact_plan.cpp, the links of its tools in tool_motion.cpp.
 class ContactLoop::Implementation {
  public:
   Implementation(HapticScene scene, const ContactLoopOptions& options);
@@ -60,13 +60,13 @@ class ContactLoop::Implementation {
   [[nodiscard]] bool stands(std::size_t member) const {
     return is_body(member) && !has_course(member);
   }
-  /// The link that a member is; -1 for others.
+  /// The link that is a member; -1 for others.
   [[nodiscard]] int link_of(std::size_t member) const {
     return member < first_link() ? -1 : static_cast<int>(links_with_shape_[member - first_link()]);
   }
-  /// The tool that a member is or hangs on; -1 for bodies.
+  /// The tool that is a member or to which it belongs; -1 for bodies.
   [[nodiscard]] int tool_of(std::size_t member) const;
-  /// [-]  Of the courses, at a time of the session.
+  /// [-]  Time of the courses at a time of the session.
   [[nodiscard]] double share(double time) const { return std::min(1.0, time / scene_.duration); }
   [[nodiscard]] Vector3d centre(std::size_t tool) const {
     return poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
@@ -120,33 +120,36 @@ class ContactLoop::Implementation {
   std::vector<detail::HapticMember> members_;
   std::vector<std::optional<PlacedShape>> placed_;
   std::vector<detail::HapticPair> pairs_;
-  std::vector<detail::ScriptedMotion> bends_;  // Of all courses.
+  std::vector<detail::ScriptedMotion> bends_;  // Motions of all courses.
   detail::ToolLinks links_;
   std::vector<std::size_t> links_with_shape_;
-  std::vector<double> reaches_;  // [m]  Of each joint: from its axis to the farthest point.
-  std::vector<double> levers_;   // [m]  Of each link: the longest of the joints on which it hangs.
-  double link_reach_ = 0.0;      // [m]  From any tool's centre to its farthest point.
-  std::vector<Pose> X_WL_;       // Where joints have the links.
-  std::vector<Displacement> courses_;  // Of members, over the next plan. A link goes to where its
-                                       // joints have it.
-  std::vector<Displacement> ways_;     // Of members, over the piece of a plan.
+  // [m]  For each joint the distance from its axis to the farthest point.
+  std::vector<double> reaches_;
+  // [m]  For each link the longest of these, of the joints on which it hangs.
+  std::vector<double> levers_;
+  double link_reach_ = 0.0;  // [m]  Distance from any tool's centre to its farthest point.
+  std::vector<Pose> X_WL_;   // Poses that joints give the links.
+  // Displacements of members over the next plan. A link goes to the place that its joints give it.
+  std::vector<Displacement> courses_;
+  std::vector<Displacement> ways_;  // Displacements of members over the piece of a plan.
   std::vector<Motion> motions_;
   detail::ContactFinder finder_{0.0};
   Workspace workspace_;
   FirstContactResult scratch_;
-  bool is_found_ = false;  // The contacts are those of the poses.
+  bool is_found_ = false;  // Whether the contacts are those of the present poses.
   std::vector<HapticTouch> touches_;
   std::vector<detail::PlannedTouch> planned_;
   detail::LastRound last_round_;
-  std::vector<HapticTouch> left_;  // Of the last round, where the plan turned back.
+  std::vector<HapticTouch> left_;  // Touches of the last round, where the plan turned back.
   detail::ToolFrames frames_;
-  bool may_part_ = true;         // No plan to part was in vain in this cycle.
-  bool is_parting_ = false;      // The plan only parts.
-  double rest_clearance_ = 0.0;  // [m]  Proven where the members are.
+  bool may_part_ = true;         // False after a plan to part was in vain in this cycle.
+  bool is_parting_ = false;      // Whether the plan only parts.
+  double rest_clearance_ = 0.0;  // [m]  Proven at the present poses.
   bool are_courses_moving_ = false;
-  double share_of_courses_ = 1.0;         // [-]  Of the time of a round; less without room.
-  double now_ = 0.0;                      // [s]  Since the cycle began.
-  std::optional<double> wait_from_ = {};  // [s]  Since then; where courses wait from then on.
+  /// [-]  The share of the time of a round in which courses move on; less without room.
+  double share_of_courses_ = 1.0;
+  double now_ = 0.0;                      // [s]  Time since the cycle began.
+  std::optional<double> wait_from_ = {};  // [s]  Time since then from which courses wait.
   HapticCycle cycle_;
 };
 

@@ -1,4 +1,4 @@
-// Where contacts let the tools go in a round: the plans of a contact loop.
+// The plans of a contact loop: where contacts let the tools go in a round.
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& way
   return gain;
 }
 
-/// Of the touches those that a projection takes.
+/// Finds the touches that a projection takes.
 std::vector<std::size_t> ContactLoop::Implementation::projected_touches() const {
   if (touches_.size() > detail::kMostProjected) {
     std::vector<HapticContact> contacts;
@@ -98,7 +98,7 @@ detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDispla
   return plan;
 }
 
-/// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
+/// Plans a shorter displacement where contacts would turn a tool so far that its linear constraints
 /// do not hold.
 detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
     const detail::ToolDisplacements& wanted) {
@@ -129,8 +129,8 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
   return found;
 }
 
-/// Plans the way; or where touches are very near only the way out of them, if there is one: what is
-/// pressed on while it has no room left sinks from round to round.
+/// Plans the displacement. Where touches are very near it plans only the way out of them, if there
+/// is one. A tool that is pressed on without room would sink from round to round.
 detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
     const detail::ToolDisplacements& ways) {
   const bool is_near = std::ranges::any_of(touches_, [&](const HapticTouch& touch) {
@@ -148,7 +148,8 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
   return plan_within_turn(ways);
 }
 
-/// Plans a round. One that turns back is planned with the contacts of the round before as well.
+/// Plans a round. A plan that turns back is made again with the contacts of the round before as
+/// well.
 detail::GodObjectPlan ContactLoop::Implementation::plan_round(
     const detail::ToolDisplacements& ways) {
   left_.clear();

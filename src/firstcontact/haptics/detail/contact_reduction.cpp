@@ -12,18 +12,17 @@
 namespace firstcontact::detail {
 namespace {
 
-/// [pivots]  Of one projection on a cone.
+/// [pivots]  Most pivots of one projection on a cone.
 constexpr int kPivotsOfRow = 60;
 
-/// [-]  Of a row of unit length.
+/// [-]  Tolerance of the projection of a row of unit length.
 constexpr double kToleranceOfRow = 1e-12;
 
-/// The unit rows that count of a contact: that of its normal, and with friction the four edges of
-/// its cone.
+/// The unit rows of a contact: that of its normal, and with friction the four edges of its cone.
 struct ContactRows {
   Coordinates normal = {};
   std::array<Coordinates, 4> edges = {};
-  std::size_t count = 0;  ///< Of edges: 0 or 4.
+  std::size_t count = 0;  ///< Number of edges: 0 or 4.
 };
 
 double product(const Coordinates& a, const Coordinates& b, std::size_t n) {
@@ -57,7 +56,7 @@ ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std:
   return rows;
 }
 
-/// What is kept with one angle.
+/// The contacts that are kept with one angle.
 class Reduction {
  public:
   Reduction(std::size_t coordinates, double angle, std::size_t most)
@@ -67,7 +66,8 @@ class Reduction {
         normals_(coordinates, most),
         edges_(coordinates, 4 * most) {}
 
-  /// Normals by normals: friction keeps nothing apart. Edges by edges.
+  /// Whether kept normals span the normal, and kept edges the edges. So friction does not keep a
+  /// contact whose normal is spanned.
   [[nodiscard]] bool spans(const ContactRows& contact) {
     if (!spans(normals_, contact.normal)) {
       return false;
@@ -80,7 +80,7 @@ class Reduction {
     return true;
   }
 
-  /// Whether each row is near that of one contact that was seen.
+  /// Whether each row is near that of one seen contact.
   [[nodiscard]] bool is_like_another(const ContactRows& contact) const {
     return std::ranges::any_of(seen_, [&](const ContactRows& other) {
       if (other.count != contact.count || !are_near(other.normal, contact.normal)) {
@@ -105,8 +105,8 @@ class Reduction {
   }
 
  private:
-  /// [-]  Of the angle, for each of two: from a row to one that was seen, and from that to the
-  /// cone. Both together stay below the angle, rounding included.
+  /// [-]  Fraction of the angle for each of two steps: from a row to a seen one, and from that to
+  /// the cone. Both together stay below the angle, rounding included.
   static constexpr double kShare = 0.499;
 
   [[nodiscard]] bool are_near(const Coordinates& a, const Coordinates& b) const {
@@ -130,7 +130,7 @@ class Reduction {
   std::vector<ContactRows> seen_;
 };
 
-/// Those kept with one angle; none where they are more than allowed.
+/// Finds the contacts that are kept with one angle; none where they are more than permitted.
 std::optional<std::vector<std::size_t>> kept_within(const std::vector<ContactRows>& rows,
                                                     const std::vector<std::size_t>& order,
                                                     std::size_t coordinates, double angle,
@@ -174,7 +174,7 @@ ReducedContacts reduce_contacts(std::span<const HapticContact> contacts, const T
       break;
     }
     reduced.angle *= 2.0;
-    if (reduced.angle >= std::numbers::pi / 2.0) {  // Nothing is claimed: the nearest.
+    if (reduced.angle >= std::numbers::pi / 2.0) {  // Nothing is claimed: the nearest are kept.
       reduced.angle = std::numbers::pi;
       reduced.kept.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
       break;

@@ -13,13 +13,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bodies of a contact problem: first the surroundings, then the tools, then their links.
+/// The number of a body in the contact problem: first the environment, then the tools, then their
+/// links.
 std::size_t body_of_problem(std::int32_t tool, std::int32_t link, std::size_t tools) {
   return link >= 0 ? 1 + tools + static_cast<std::size_t>(link)
                    : 1 + static_cast<std::size_t>(tool);
 }
 
-/// The coordinates of a tool with joints in a contact problem: of its body, then of its joints.
+/// The coordinates of a tool with joints in a contact problem: those of its body, then of its
+/// joints.
 class ToolMechanism {
  public:
   ToolMechanism(std::size_t tool, const ToolFrames& frames) : tool_(tool), frames_(frames) {
@@ -50,7 +52,7 @@ class ToolMechanism {
     return mechanism;
   }
 
-  /// The motion of the tool's centre as a point of the link.
+  /// Makes the link: its motion is that of the tool's centre as a point of the link.
   [[nodiscard]] MechanismLink link(std::size_t mechanism, int link) const {
     MechanismLink made{mechanism, {}};
     made.J.setZero(6, static_cast<Eigen::Index>(6 + joints_.size()));
@@ -74,7 +76,7 @@ class ToolMechanism {
   std::vector<std::size_t> joints_;
 };
 
-/// Makes the tools with joints mechanisms, and adds their links and limits.
+/// Adds the tools with joints as mechanisms, with their links and limits.
 void add_joints(const ToolDisplacements& wanted, const ToolFrames& frames, std::size_t tools,
                 ContactProblem& problem) {
   if (frames.links == nullptr) {
@@ -112,8 +114,8 @@ void add_joints(const ToolDisplacements& wanted, const ToolFrames& frames, std::
   }
 }
 
-/// The contact problem whose unit of time is the plan. Its masses are stiffnesses by that of the
-/// first tool, so that kinetic energy is that of the springs. Body 0 is the surroundings.
+/// Makes the contact problem whose unit of time is the plan. Its masses are stiffnesses by that of
+/// the first tool, so that kinetic energy is that of the springs. Body 0 is the environment.
 ContactProblem problem_of(const ToolDisplacements& wanted, const ToolFrames& frames,
                           std::size_t tools, const std::vector<PlannedTouch>& touches,
                           double least_way) {
@@ -151,7 +153,7 @@ ContactProblem problem_of(const ToolDisplacements& wanted, const ToolFrames& fra
   return problem;
 }
 
-/// [m]  The way of a point by the joints on which its link hangs.
+/// [m]  Computes the displacement of a point by the joints on which its link hangs.
 Vector3d way_by_joints(int link, const Vector3d& point, const ToolDisplacements& ways,
                        const ToolFrames& frames) {
   Vector3d way = Vector3d::Zero();
@@ -167,10 +169,11 @@ Vector3d way_by_joints(int link, const Vector3d& point, const ToolDisplacements&
   return way;
 }
 
-/// [pivots]  Of the small projection; then the large solver is asked.
+/// [pivots]  Most pivots of the small projection, before the large solver takes over.
 constexpr int kPivotsOfPlan = 300;
 
-/// [-]  Cuts are made to this part of the residual, as the direction of friction is of its root.
+/// [-]  Tolerance of cuts, by the residual. It is small, as the direction of friction is as exact
+/// as its root.
 constexpr double kCutsOfResidual = 1e-2;
 
 /// Plans by the projection of the force loop.
@@ -224,7 +227,7 @@ bool plan_by_cuts(const ToolDisplacements& wanted, const ToolFrames& frames, std
   return found.is_solved;
 }
 
-/// Plans by the solver of the simulator, which minds many contacts and contradictions less.
+/// Plans by the solver of the simulator, which copes better with many contacts and contradictions.
 GodObjectPlan plan_by_solver(const ToolDisplacements& wanted, const ToolFrames& frames,
                              std::size_t tools, const std::vector<PlannedTouch>& touches,
                              double nearest, double residual) {
@@ -309,8 +312,8 @@ bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
     if (contact.other >= 0) {
       u -= moved(contact.other, contact.other_link, contact.point);
     }
-    constexpr double kNear = 5.0;            // Slacks.
-    constexpr double kRoundingOfGap = 1e-6;  // Of the gap.
+    constexpr double kNear = 5.0;            // In units of the slack.
+    constexpr double kRoundingOfGap = 1e-6;  // In units of the gap.
     const double room = contact.gap > kNear * slack ? slack : kRoundingOfGap * contact.gap;
     return u.dot(contact.normal) >= -std::max(touch.way, 0.0) - room;
   });

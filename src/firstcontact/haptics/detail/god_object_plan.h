@@ -1,5 +1,5 @@
 /// @file
-/// Where contacts let god-objects go: Gauss' projection of the way to their targets.
+/// Plans of god-objects: Gauss' projection of the displacement to their targets on the contacts.
 
 #pragma once
 
@@ -15,12 +15,13 @@
 
 namespace firstcontact::detail {
 
-/// The displacement of a body: its pivot moves by a translation, and it turns about it.
+/// The displacement of a body: its pivot moves by a translation, and the body turns about the
+/// pivot.
 struct Displacement {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]
 
-  /// [m]  The way of the point at an arm [m] from the pivot, to first order.
+  /// [m]  The displacement of the point at an arm [m] from the pivot, to first order.
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& arm) const {
     return translation + rotation_vector.cross(arm);
   }
@@ -34,34 +35,37 @@ struct ToolDisplacements {
   [[nodiscard]] Displacement& operator[](std::size_t tool) { return tools[tool]; }
   [[nodiscard]] const Displacement& operator[](std::size_t tool) const { return tools[tool]; }
 
-  /// The same part of each.
+  /// The same fraction of each.
   [[nodiscard]] ToolDisplacements part(double part) const;
 };
 
-/// The product of two displacements in the metric of the springs [m^2].
+/// Computes the product of two displacements in the metric of the springs [m^2].
 [[nodiscard]] double product_of(const ToolDisplacements& a, const ToolDisplacements& b,
                                 const ToolFrames& frames, std::size_t tools);
 
-/// A touch as a projection needs it.
+/// A touch as a projection takes it.
 struct PlannedTouch {
   const HapticContact* contact = nullptr;
-  double way = 0.0;  ///< [m]  To where the pair rests; negative where it is too near.
-  /// [m]  How far the surroundings go there, less the way of a link that coordinates do not have.
+  /// [m]  Distance to the gap at which the pair rests; negative where it is too near.
+  double way = 0.0;
+  /// [m]  Displacement of the environment there, less that of a link that the coordinates do not
+  /// have.
   Eigen::Vector3d surface = Eigen::Vector3d::Zero();
 };
 
+/// A plan of all tools.
 struct GodObjectPlan {
   ToolDisplacements displacements = {};
   double residual = 0.0;      ///< [m]
-  bool is_pressed = false;    ///< Contacts change it.
-  bool is_shortened = false;  ///< It leads only a part of the way...
-  double part = 1.0;          ///< [-]  ...this one, where that was chosen.
+  bool is_pressed = false;    ///< Whether contacts change it.
+  bool is_shortened = false;  ///< Whether it goes only a fraction of the way...
+  double part = 1.0;          ///< [-]  ...this one, where the fraction was chosen.
 };
 
 /// Projects the displacements towards the targets on the contacts, with friction.
 ///
-/// Touches that are too near are pushed to where they rest; where that contradicts others, they
-/// are only kept from coming nearer. The small projection of the force loop solves it
+/// Touches that are too near are pushed to their rest gap. Where that contradicts others, they are
+/// only kept from coming nearer. The small projection of the force loop solves the plan
 /// (ConeProjection), else project_on_contacts().
 ///
 /// @param residual  [m]  to be reached; > 0
@@ -70,14 +74,15 @@ struct GodObjectPlan {
                                              const std::vector<PlannedTouch>& touches,
                                              double residual);
 
-/// Whether a plan keeps its touches apart, to first order: none comes nearer than its way, or than
-/// it is where it has none left. Not where surroundings that move leave a tool no room.
+/// Whether a plan keeps its touches apart, to first order. No touch comes nearer by more than its
+/// `way`, or at all where it has none left. False where a moving environment leaves a tool no room.
 ///
-/// @param slack  [m]  none of touches that are nearer than five times as much: it would add up
+/// @param slack  [m]  for touches with a gap above five times this. For nearer ones it is almost 0,
+///         as it would add up
 [[nodiscard]] bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
                                const std::vector<PlannedTouch>& touches, double slack);
 
-/// The rotation vector [rad] of the shortest turn from one orientation to another.
+/// Computes the rotation vector [rad] of the shortest turn from one orientation to another.
 [[nodiscard]] Eigen::Vector3d turn_between(const Eigen::Quaterniond& from,
                                            const Eigen::Quaterniond& to) noexcept;
 

@@ -1,5 +1,5 @@
 /// @file
-/// Where the grips of a device want the joints of its tool to be.
+/// The positions that the grips of a device want for the joints of its tool.
 
 #pragma once
 
@@ -24,27 +24,30 @@ void check_grips(std::span<const GripMapping> grips, const HapticTool& tool);
 /// Follows the grips of one device. After the construction nothing is allocated.
 class GripFollower {
  public:
-  /// @param links  outlives it
+  /// Prepares the grips of a device.
+  ///
+  /// @param links  outlives this
   GripFollower(const std::vector<GripMapping>& grips, std::size_t tool, const ToolLinks& links);
 
-  /// While the device is not engaged, joints are wanted where the god-object had them when the
-  /// engagement ended, and grips by buttons stay.
+  /// Computes the wanted positions. While the device is not engaged, they are those of the
+  /// god-object at the end of the engagement, and grips by buttons stay.
   ///
   /// @param seconds  since the last tick.
   /// @param values   takes the values of the grips.
-  /// @param targets  takes where the tool's joints are wanted [rad or m], within their limits.
+  /// @param targets  takes the wanted positions of the tool's joints [rad or m], within their
+  ///         limits.
   void follow(const DeviceState& device, bool is_engaged, const HapticContactSet& set,
               double seconds, std::array<double, kMostGrips>& values,
               std::array<double, kMostHapticJoints>& targets) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return grips_.size(); }
 
-  /// [J]  The effort on a grip by those of joints.
+  /// [J]  Computes the effort on a grip from those of joints.
   [[nodiscard]] double effort(std::size_t grip,
                               const std::array<double, kMostHapticJoints>& efforts) const noexcept;
 
  private:
-  std::vector<GripMapping> grips_;  // Joints numbered among those of all tools.
+  std::vector<GripMapping> grips_;  // Joints have their numbers among those of all tools.
   std::size_t tool_ = 0;
   const ToolLinks* links_ = nullptr;
   std::array<double, kMostGrips> values_{};

@@ -1,5 +1,5 @@
 /// @file
-/// Refuses haptic scenes that make no sense.
+/// Refuses invalid haptic scenes.
 
 #pragma once
 
@@ -9,11 +9,15 @@
 
 namespace firstcontact::detail {
 
-/// @throws std::invalid_argument with this text unless a condition holds
+/// Requires a condition.
+///
+/// @throws std::invalid_argument with this text unless the condition holds
 void require_haptic(bool holds, const std::string& what);
 
 [[nodiscard]] bool is_finite_pose(const Pose& pose);
 
+/// Checks a scene.
+///
 /// @throws std::invalid_argument that names the tool or the body, if a number is out of its range,
 ///         there is no tool or too many, or a shape deforms
 void check_haptic_scene(const HapticScene& scene);

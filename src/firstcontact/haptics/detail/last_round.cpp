@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where a point of a member is after the member moved.
+/// Computes the place of a point of a member after the member moved.
 Vector3d carried(const Vector3d& point, const Pose& from, const Pose& to) {
   const Vector3d p_B = from.rotation.normalized().conjugate() * (point - from.position);
   return to.position + to.rotation.normalized() * p_B;

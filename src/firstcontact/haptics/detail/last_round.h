@@ -1,5 +1,5 @@
 /// @file
-/// What the round before left behind, for one that turns back.
+/// The contacts of the round before, for a round that turns back.
 
 #pragma once
 
@@ -13,27 +13,28 @@
 
 namespace firstcontact::detail {
 
-/// Remembers a round: where its members were, what touched there, and where it led.
+/// The memory of a round: the poses of its members, its touches and its displacement.
 ///
-/// A plan knows the contacts where it begins. In a groove it slides along one flank and on to the
-/// other. There the next plan knows that one only, and slides back: the two rounds repeat for ever.
-/// A plan that leads back is hence made once more, with the contacts of both rounds. It ends in the
-/// groove.
+/// A plan knows only the contacts where it begins. In a groove it slides along one flank and on to
+/// the other. There the next plan knows only the other flank, and slides back: the two rounds
+/// repeat for ever. A plan that turns back is hence made once more, with the contacts of both
+/// rounds. It ends in the groove.
 class LastRound {
  public:
   void forget() { poses_.clear(); }
   void keep(const std::vector<Pose>& poses, const std::vector<HapticTouch>& touches,
             const ToolDisplacements& way);
 
-  /// Whether a way leads back, in the metric of the springs. Not where nothing is remembered.
+  /// Whether a displacement turns back, in the metric of the springs. False where nothing is
+  /// remembered.
   [[nodiscard]] bool is_left_by(const ToolDisplacements& way, const ToolFrames& frames,
                                 std::size_t tools) const;
 
-  /// The contacts of that round that touch no more: the planes that they were, and their points as
-  /// the members carried them along.
+  /// Finds the contacts of that round that touch no more, as planes, with the points that the
+  /// members carried along.
   ///
   /// @param poses     of all members, now
-  /// @param touching  now
+  /// @param touching  the touches now
   [[nodiscard]] std::vector<HapticTouch> touches_left(
       const std::vector<Pose>& poses, const std::vector<HapticTouch>& touching) const;
 

@@ -15,12 +15,14 @@
 namespace firstcontact::detail {
 namespace {
 
+/// The margin and the tolerance of a pair's proof.
 struct HeldApart {
   double margin = 0.0;     // [m]
   double tolerance = 0.0;  // [m]
 };
 
-/// A pair that is near already is held to a share of its gap, so that it can slide and part.
+/// Chooses the margin of a pair. A near pair is held to a fraction of its gap, so that it can slide
+/// and part.
 HeldApart held_apart(double gap, double contact_distance) {
   if (gap > kFreeGap * contact_distance) {
     return {contact_distance, kFoundWithin * contact_distance};
@@ -30,10 +32,10 @@ HeldApart held_apart(double gap, double contact_distance) {
   return {margin, 0.5 * (gap - margin)};
 }
 
-/// [-]  Of the sizes: more than the rounding of what is computed of balls.
+/// [-]  Greater than the rounding errors of balls, by their sizes.
 constexpr double kRoundingOfBalls = 1e-12;
 
-/// A ball that holds a member wherever it goes.
+/// A ball that contains a member throughout its motion.
 struct MemberBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]  World.
   double radius = 0.0;                               // [m]
@@ -46,7 +48,8 @@ MemberBall ball_of(const HapticMember& member, const Pose& X_WM) {
           member.reach + kRoundingOfBalls * size};
 }
 
-/// Over a motion: the centre goes with the pivot, and turns about it at a constant rate.
+/// Finds the ball over a motion: the centre goes with the pivot, and turns about it at a constant
+/// rate.
 MemberBall ball_over(const HapticMember& member, const Motion& motion) {
   MemberBall ball = ball_of(member, motion.pose(0.0));
   if (motion.breaks().size() != 2) {
@@ -62,7 +65,7 @@ bool are_far(const MemberBall& A, const MemberBall& B, double distance) {
   return (A.centre - B.centre).norm() - A.radius - B.radius > distance;
 }
 
-/// The balls of members that are in pairs that may be far.
+/// Finds the balls of members that are in pairs that may be far.
 std::vector<MemberBall> balls_over(std::span<const HapticMember> members,
                                    std::span<const Motion> motions,
                                    std::span<const HapticPair> pairs) {

@@ -1,5 +1,5 @@
 /// @file
-/// How far members move before a pair of them would come too near: the proofs of a plan.
+/// The proofs of a plan: how far members move before a pair of them comes too near.
 
 #pragma once
 
@@ -17,25 +17,28 @@
 
 namespace firstcontact::detail {
 
-/// A tool and another member, and the least distance of their features where a plan begins.
+/// A tool and another member, with the least distance of their features where a plan begins.
 struct HapticPair {
-  std::array<std::size_t, 2> members = {};  ///< The other one, then the tool.
+  std::array<std::size_t, 2> members = {};  ///< The other member, then the tool.
   double gap = 0.0;                         ///< [m]  Infinite where it is beyond the band.
-  BoxFront front = {};      ///< Of the members in that order; empty where the roots do as well.
-  bool may_be_far = false;  ///< Balls around both are compared first.
+  /// The front of the members in that order; empty where the roots serve as well.
+  BoxFront front = {};
+  bool may_be_far = false;  ///< Whether balls around both are compared first.
 };
 
 /// Whether balls around two members are farther apart than a distance, by more than rounding.
 [[nodiscard]] bool are_far(const HapticMember& A, const Pose& X_WA, const HapticMember& B,
                            const Pose& X_WB, double distance);
 
+/// The part of a plan that is proven.
 struct ProvenPart {
-  double t = 1.0;          ///< [-]  Of the plan: proven free of contact until here.
-  double clearance = 0.0;  ///< [m]  Proven: no pair comes closer before. Infinite without pairs.
-  bool is_late = false;    ///< The deadline ended a search.
+  double t = 1.0;  ///< [-]  Time in the plan before which it is proven free of contact.
+  /// [m]  Proven lower bound of all distances before t. Infinite without pairs.
+  double clearance = 0.0;
+  bool is_late = false;  ///< Whether the deadline ended a search.
 };
 
-/// Proves how much of a plan is free: nothing of it where that brings a wedged pair nearer
+/// Proves how much of a plan is free. Nothing of it is where that brings a wedged pair nearer
 /// (kFloorOfGap).
 ///
 /// @param motions  of all members over the plan

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [m], [rad]  A device that sets rates leads its god-object by no more: it could not be felt that
-/// it is far behind a wall.
+/// [m], [rad]  The most by which a device that sets rates is ahead of its god-object. A target far
+/// behind a wall could not be felt.
 constexpr double kMostLead = 0.02;
 constexpr double kMostLeadOfTurn = 0.3;
 
@@ -77,7 +77,7 @@ void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
              (turn_by(turn) * god_object.rotation.normalized()).normalized()};
 }
 
-/// The target stays where the god-object is when the engagement ends. What pushes the tool on from
+/// Ends an engagement: the target stays where the god-object is. A body that pushes the tool from
 /// there moves it only as long as it touches.
 void TargetFollower::disengage(bool was_engaged, const Pose& god_object) noexcept {
   held_ = was_engaged ? god_object : held_;
@@ -90,7 +90,8 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object,
   const bool was_engaged = is_engaged_;
   faults_ = faults_of(device);
   if (faults_ != 0) {
-    // A lost device keeps its references: where it is means the same when it comes back.
+    // A lost device keeps its references, so that its handle has the same meaning when it comes
+    // back.
     is_rebased_ = is_rebased_ || faults_ == static_cast<std::uint32_t>(ForceFault::disengaged);
     disengage(was_engaged, god_object);
     return;
@@ -114,7 +115,7 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object,
     target_ = mapped(device.X_DH);
   }
   if (!target_.position.allFinite() || !(target_.rotation.squaredNorm() > 0.0)) {
-    // Scale and place may be finite and their product not.
+    // Scale and position may be finite and their product not.
     faults_ = static_cast<std::uint32_t>(ForceFault::not_finite);
     disengage(was_engaged, god_object);
   }

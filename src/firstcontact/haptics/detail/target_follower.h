@@ -1,5 +1,5 @@
 /// @file
-/// Where a device wants its tool to be: mapping, clutch, and devices that set rates.
+/// The target that a device wants for its tool: mapping, clutch, and devices that set rates.
 
 #pragma once
 
@@ -18,7 +18,9 @@ class TargetFollower {
   TargetFollower(const DeviceMapping& mapping, const Pose& X_WB)
       : mapping_(mapping), X_DH_(mapping.X_DH), X_WB_(X_WB), target_(X_WB), held_(X_WB) {}
 
-  /// @param god_object  where it is
+  /// Takes the state of the device at a tick.
+  ///
+  /// @param god_object  its pose
   /// @param seconds     since the last tick
   void follow(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
@@ -34,17 +36,19 @@ class TargetFollower {
   void drive(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
   DeviceMapping mapping_;
-  Pose X_DH_;  // References.
+  Pose X_DH_;  // Reference pose of the handle.
+  // Reference pose of the body.
   Pose X_WB_;
   Pose target_;
-  Pose held_;  // The target while it is not engaged.
+  Pose held_;  // The target while the device is not engaged.
   bool is_engaged_ = false;
   bool has_begun_ = false;
-  bool is_rebased_ = false;  // At the next engagement: the clutch was used.
+  // Whether the next engagement sets new references, as the clutch was used.
+  bool is_rebased_ = false;
   std::uint32_t faults_ = 0;
 };
 
-/// The turn by a rotation vector [rad].
+/// The rotation by a rotation vector [rad].
 [[nodiscard]] Eigen::Quaterniond turn_by(const Eigen::Vector3d& rotation_vector) noexcept;
 
 }  // namespace firstcontact::detail

@@ -14,19 +14,19 @@ using Eigen::Vector3d;
 
 constexpr double kNanosecond = 1e-9;  // [s]
 
-/// [ns]  A velocity is that over so long. Longer: steps of an encoder matter less, and a hand that
-/// brakes is led too far.
+/// [ns]  Time over which a velocity is measured. With more, steps of an encoder matter less, and a
+/// hand that brakes is extrapolated too far.
 constexpr std::int64_t kHalf = 2'000'000;
-/// [ns]  Samples are kept so far apart, so that the ring holds both halves at any rate.
+/// [ns]  Distance of the samples that are kept, so that the ring holds both halves at any rate.
 constexpr std::int64_t kApart = kHalf / 5;
-/// [ns]  A sample may be so far from the time at which one is sought.
+/// [ns]  Greatest distance of a sample from the time for which it is sought.
 constexpr std::int64_t kNear = kHalf / 2;
 
-/// [m/s], [rad/s]  Of the handle. What is faster is a jump, and no hand.
+/// [m/s], [rad/s]  Greatest speeds of the handle. A faster motion is a jump, not of a hand.
 constexpr double kFastest = 10.0;
 constexpr double kFastestTurn = 100.0;
 
-/// The newer of two velocities, no longer than the older one; 0 where they turn back.
+/// The newer of two velocities, limited to the length of the older one; 0 where they turn back.
 Vector3d steady_part(const Vector3d& older, const Vector3d& newer) noexcept {
   if (!(older.dot(newer) > 0.0)) {
     return Vector3d::Zero();
@@ -38,7 +38,7 @@ Vector3d steady_part(const Vector3d& older, const Vector3d& newer) noexcept {
 
 void TargetLead::take(const Sample& sample) noexcept {
   if (has_newest_ && sample.time_ns < newest_.time_ns) {
-    count_ = 0;  // Another clock: begin anew.
+    count_ = 0;  // Another clock: start again.
   }
   newest_ = sample;
   has_newest_ = true;
@@ -97,7 +97,7 @@ std::optional<TargetLead::Velocity> TargetLead::velocity() const noexcept {
   const Velocity newer = between(*middle, newest_);
   const Velocity steady{steady_part(older.linear, newer.linear),
                         steady_part(older.angular, newer.angular)};
-  // Negated, so that what is not finite gives no lead either.
+  // Negated, so that values that are not finite are refused, too.
   if (!(steady.linear.norm() <= kFastest * scale_ && steady.angular.norm() <= kFastestTurn)) {
     return std::nullopt;
   }

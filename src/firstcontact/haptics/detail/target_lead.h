@@ -1,5 +1,5 @@
 /// @file
-/// Where a device's target will be when the contacts of a cycle are felt.
+/// Extrapolation of a device's target to the time at which the contacts of a cycle are felt.
 
 #pragma once
 
@@ -16,12 +16,12 @@
 
 namespace firstcontact::detail {
 
-/// Leads the target of one device by its velocity.
+/// Extrapolates the target of one device by its velocity.
 ///
-/// The velocity is that of the last two milliseconds, shortened to the speed of the two before. So
-/// a target at constant velocity is met, and one that was still is not led: neither a jump nor the
-/// step of an encoder is taken for a motion. There is no lead where the device is not engaged, sets
-/// rates, is faster than a hand, or gives too few samples to tell.
+/// The velocity is that of the last two milliseconds, limited by the speed of the two before. So a
+/// target at constant velocity is met, and one that was still is not extrapolated. Neither a jump
+/// nor the step of an encoder is taken for a motion. The target stays where the device is not
+/// engaged, sets rates, is faster than a hand, or gives too few samples.
 ///
 /// Nothing is allocated.
 class TargetLead {
@@ -32,7 +32,8 @@ class TargetLead {
   /// Takes the next tick of the force loop.
   void watch(std::int64_t now_ns, const ToolTick& tick) noexcept;
 
-  /// X_WB in so many seconds; the target of the last tick where there is no lead.
+  /// Computes the pose X_WB after `seconds`; the target of the last tick where it is not
+  /// extrapolated.
   ///
   /// @param seconds  [s]  >= 0; more than 4 ms count as 4 ms
   [[nodiscard]] Pose target_in(double seconds) const noexcept;
@@ -57,16 +58,16 @@ class TargetLead {
   double scale_;
   bool is_pose_;
   std::array<Sample, kKept> kept_ = {};
-  std::size_t count_ = 0;  // Of all samples that were kept since the engagement.
+  std::size_t count_ = 0;  // Number of samples that were kept since the engagement.
   std::int64_t now_ns_ = 0;
   bool has_newest_ = false;
-  std::uint64_t sequence_ = 0;  // Of the newest sample.
+  std::uint64_t sequence_ = 0;  // Sequence number of the newest sample.
   Sample newest_;
-  Pose target_;  // Of the last tick.
+  Pose target_;  // The target of the last tick.
 };
 
-/// Whether a tool touches anything with friction. Its target is not led then: a god-object that
-/// slides ahead of the device is held there, and friction is felt as less than it is.
+/// Whether a tool touches anything with friction. Then its target is not extrapolated. A god-object
+/// that slides ahead of the device would be held there, and the felt friction would be too small.
 [[nodiscard]] bool is_rubbing(const HapticContactSet& set, std::size_t tool) noexcept;
 
 }  // namespace firstcontact::detail

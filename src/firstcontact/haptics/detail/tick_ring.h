@@ -10,11 +10,15 @@
 
 namespace firstcontact::detail {
 
-/// A ring of items between one thread that pushes and one that pops. Pushing allocates nothing and
-/// never waits: where the ring is full the item is dropped, and counted.
+/// A ring of items between one thread that pushes and one that pops.
+///
+/// Pushing allocates nothing and never waits. Where the ring is full the item is dropped, and
+/// counted.
 template <class Item>
 class TickRing {
  public:
+  /// Makes an empty ring.
+  ///
   /// @param size  a power of two
   explicit TickRing(std::size_t size) : items_(size), mask_(size - 1) {}
 

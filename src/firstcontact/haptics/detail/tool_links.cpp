@@ -71,7 +71,7 @@ double ToolLinks::own_turn(std::size_t link, std::span<const double> of_joints) 
                         : std::abs(node.turn * of_joints[static_cast<std::size_t>(node.joint)]);
 }
 
-/// Sums for each link what its joint and those on which it hangs add.
+/// Sums for each link the rates of its joint and of those on which it hangs.
 std::vector<double> ToolLinks::sums(std::span<const double> of_joints, double Node::*rate) const {
   std::vector<double> sums(nodes_.size());
   for (std::size_t k = 0; k < nodes_.size(); ++k) {

@@ -1,5 +1,5 @@
 /// @file
-/// The links of all tools, and where joints put them.
+/// The links of all tools, and their places by joints.
 
 #pragma once
 
@@ -19,10 +19,11 @@ namespace firstcontact::detail {
 /// Links and joints of all tools, numbered tool after tool.
 class ToolLinks {
  public:
+  /// A link. -1 stands for none.
   struct Node {
     std::size_t tool = 0;
     int parent = -1;  ///< A link before it; -1 for the tool's body.
-    int joint = -1;   ///< -1 where it is fixed.
+    int joint = -1;   ///< Its joint; -1 where it is fixed.
     double turn = 0.0;
     double slide = 0.0;
     Pose X_PJ;
@@ -30,6 +31,8 @@ class ToolLinks {
   };
 
   ToolLinks() = default;
+  /// Numbers the links and joints of all tools.
+  ///
   /// @param tools  that were checked (check_haptic_scene())
   explicit ToolLinks(const std::vector<HapticTool>& tools);
 
@@ -37,7 +40,7 @@ class ToolLinks {
   [[nodiscard]] std::span<const HapticJoint> joints() const { return joints_; }
   [[nodiscard]] std::size_t tool_of_joint(std::size_t joint) const { return tool_of_joint_[joint]; }
 
-  /// Coordinates of the tools stand first, six each; those of joints follow.
+  /// The number of coordinates: first those of the tools, six each, then those of joints.
   [[nodiscard]] std::size_t coordinates() const { return 6 * tools_ + joints_.size(); }
   [[nodiscard]] std::size_t coordinate_of(std::size_t joint) const { return 6 * tools_ + joint; }
 
@@ -55,13 +58,13 @@ class ToolLinks {
   void place(std::span<const Pose> X_WB, std::span<const double> joints, std::span<Pose> X_WL,
              std::span<HapticAxis> axes) const;
 
-  /// [rad]  How far each link turns at most against its tool where joints go by so much.
+  /// [rad]  Bounds the turn of each link against its tool where joints move by `of_joints`.
   [[nodiscard]] std::vector<double> turns(std::span<const double> of_joints) const;
 
-  /// [m]  How far each link slides at most against its tool where joints go by so much.
+  /// [m]  Bounds the slide of each link against its tool where joints move by `of_joints`.
   [[nodiscard]] std::vector<double> slides(std::span<const double> of_joints) const;
 
-  /// [rad]  The turn of a link by its own joint.
+  /// [rad]  Computes the turn of a link by its own joint.
   [[nodiscard]] double own_turn(std::size_t link, std::span<const double> of_joints) const;
 
  private:

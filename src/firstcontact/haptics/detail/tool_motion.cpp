@@ -1,4 +1,4 @@
-// The links of tools in a contact loop: where joints have them, and how they go there.
+// The links of tools in a contact loop: their places by joints, and their motions to these.
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ void ContactLoop::Implementation::begin_links() {
 
 namespace {
 
-/// [m]  How far a joint gets from 0, or as it begins where it has no limits.
+/// [m]  Finds the greatest distance of a joint from 0; its start where it has no limits.
 double farthest(const HapticJoint& joint) {
   double far = std::abs(joint.start);
   for (const double limit : {joint.lower, joint.upper}) {
@@ -76,8 +76,8 @@ double farthest(const HapticJoint& joint) {
 
 }  // namespace
 
-/// Bounds how far points of tools are from the axes that turn them, in any posture: by the lengths
-/// of the links between, with slides as long as their limits let them be.
+/// Bounds the distance of points of tools from the axes that turn them, in any posture. It sums the
+/// lengths of the links between, with slides as long as their limits permit.
 void ContactLoop::Implementation::measure_joints() {
   reaches_.assign(joints_.size(), 0.0);
   levers_.assign(links_.nodes().size(), 0.0);
@@ -106,8 +106,8 @@ void ContactLoop::Implementation::measure_joints() {
   }
 }
 
-/// Takes axes and joints over, and how far links are from where joints have them: by less than a
-/// piece of a plan bends, as a contact may end it anywhere.
+/// Takes over axes and joints, and the distances of links from the places that joints give them.
+/// They are less than the bend of a piece of a plan, as a contact may end the piece anywhere.
 void ContactLoop::Implementation::set_link_frames() {
   if (links_.nodes().empty()) {
     return;
@@ -121,10 +121,10 @@ void ContactLoop::Implementation::set_link_frames() {
   }
 }
 
-/// Into how many pieces links cut a plan.
+/// Counts the pieces into which links divide a plan.
 ///
-/// A link's origin goes on a line and the link turns about it, each at a constant rate. So a joint
-/// alone bends nothing. Joints and a tool that turn together do, by an eighth of the product of
+/// A link's origin moves on a line and the link turns about it, each at a constant rate. So a joint
+/// alone bends nothing. Joints and a tool that turn together bend, by an eighth of the product of
 /// their angles times a lever. A slide that turns bends by a quarter of the product of both. In no
 /// piece does a link turn by half a turn: the shortest turn to its end would be another one.
 std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacements& ways) const {
@@ -148,8 +148,8 @@ std::size_t ContactLoop::Implementation::pieces_of(const detail::ToolDisplacemen
   return static_cast<std::size_t>(std::clamp(pieces, 1.0, 1e6));
 }
 
-/// [-]  The part of a plan in which no link turns farther than straight constraints of contacts
-/// hold: points sink by half of the lever times the square of the angle.
+/// [-]  Finds the fraction of a plan in which turns of links keep the linear constraints of
+/// contacts. Points sink by half of the lever times the square of the angle.
 double ContactLoop::Implementation::part_within_turn(const detail::ToolDisplacements& ways) const {
   double part = 1.0;
   const auto keep = [&](double turn, double lever) {
@@ -164,8 +164,8 @@ double ContactLoop::Implementation::part_within_turn(const detail::ToolDisplacem
   return part;
 }
 
-/// Sets the motions of links over a piece: from where they are to where joints have them then.
-/// Their tools have theirs.
+/// Sets the motions of links over a piece: from their present places to those that joints give them
+/// at its end. The motions of their tools are set already.
 void ContactLoop::Implementation::set_link_motions(const detail::ToolDisplacements& ways) {
   if (links_.nodes().empty()) {
     return;
