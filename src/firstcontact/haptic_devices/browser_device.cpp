@@ -29,10 +29,11 @@ using detail::JsonReader;
 using detail::JsonValue;
 using detail::WebSocketKind;
 
-constexpr std::int64_t kRoundNs = 4'000'000;      // Between looks at the connections.
-constexpr std::int64_t kPictureNs = 16'000'000;   // Between messages to the page.
-constexpr std::int64_t kStillNs = 2'000'000'000;  // After which a side that takes nothing is left.
-constexpr std::size_t kMostMessage = 4096;        // [byte]  Of a pose.
+constexpr std::int64_t kRoundNs = 4'000'000;     // [ns]  Pause between rounds over the connections.
+constexpr std::int64_t kPictureNs = 16'000'000;  // [ns]  Pause between messages to the page.
+// [ns]  Time after which a side that takes nothing is given up.
+constexpr std::int64_t kStillNs = 2'000'000'000;
+constexpr std::size_t kMostMessage = 4096;  // [byte]  Greatest length of a pose.
 constexpr std::size_t kMostConnections = 16;
 
 const std::string& page_name() {
@@ -63,7 +64,7 @@ std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& valu
   return numbers;
 }
 
-/// The pose of the handle and the value of the grips that a page sends.
+/// Reads the pose of the handle and the value of the grips from a page's message.
 void take_handle(std::string_view text, DeviceState& state) {
   const JsonValue root = detail::parse_json(text, page_name());
   const JsonReader reader(root, page_name());
@@ -90,11 +91,11 @@ struct BrowserDevice::Data {
   struct Connection {
     detail::FileDescriptor socket;
     std::string request = {};
-    std::optional<detail::WebSocketReader> reader = {};  // Once it is a WebSocket.
-    std::string left = {};                               // To send.
-    std::int64_t moved_ns = steady_now_ns();             // When it last said or took something.
-    bool ends = false;                                   // Once all is sent.
-    bool closed = false;                                 // Nothing more is read or sent.
+    std::optional<detail::WebSocketReader> reader = {};  // Set once it is a WebSocket.
+    std::string left = {};                               // Bytes to send.
+    std::int64_t moved_ns = steady_now_ns();  // Time at which it last sent or took something.
+    bool ends = false;                        // Whether it ends once all is sent.
+    bool closed = false;                      // Whether nothing more is read or sent.
 
     [[nodiscard]] bool is_page() const { return reader && !ends && !closed; }
   };
@@ -113,8 +114,9 @@ struct BrowserDevice::Data {
     report.set_problem("no page is open yet");
   }
 
-  /// Whether a request is to this machine by its own name, through a tunnel or not, and from a page
-  /// of this device or from a program. Other names may be those of pages that were led here.
+  /// Whether a request addresses this machine by its own name, through a tunnel or not. It also has
+  /// to come from a page of this device or from a program. Another name may be that of a foreign
+  /// page.
   [[nodiscard]] static bool is_own(const detail::HttpHead& head) {
     const std::string name = head.host.substr(0, head.host.rfind(':'));
     const std::string suffix = head.host.substr(name.size());
@@ -156,7 +158,8 @@ struct BrowserDevice::Data {
     report.set_problem("the page has not moved the tool yet");
   }
 
-  // Who sees a count finds what it counts, and who sees a state its reason: those are told first.
+  // Samples come before counts, and reasons before states: a thread that sees the second finds the
+  // first.
   void take(const std::string& text) {
     try {
       take_handle(text, state);
@@ -177,7 +180,7 @@ struct BrowserDevice::Data {
     const detail::Received received = detail::receive(connection.socket, buffer);
     const std::string_view bytes(buffer.data(), received.count);
     if (connection.ends) {
-      return;  // A side that says no more may still take its answer.
+      return;  // A side that sends no more may still take its answer.
     }
     connection.closed = !received.open;
     connection.moved_ns = received.count > 0 ? steady_now_ns() : connection.moved_ns;
@@ -203,8 +206,8 @@ struct BrowserDevice::Data {
     connection.closed = connection.closed || !connection.reader->failure().empty();
   }
 
-  /// Sends what goes at once, and gives up a side that has taken or said nothing for long. An open
-  /// page may be silent.
+  /// Sends as much as goes at once. Gives up a side that has taken or sent nothing for long; an
+  /// open page may be silent.
   static void send(Connection& connection) {
     const std::int64_t now = steady_now_ns();
     if (!connection.left.empty() && !connection.closed) {
@@ -240,7 +243,7 @@ struct BrowserDevice::Data {
   void run() {
     std::int64_t shown_ns = steady_now_ns();
     while (detail::wait_for(stop, steady_now_ns() + kRoundNs) != detail::WaitEnd::stopped) {
-      if (connections.size() < kMostConnections) {  // Else they wait.
+      if (connections.size() < kMostConnections) {  // Others wait.
         detail::FileDescriptor socket = detail::accept_one(listener);
         if (socket.is_open()) {
           connections.push_back({.socket = std::move(socket)});
@@ -264,14 +267,14 @@ struct BrowserDevice::Data {
     }
   }
 
-  // In an order without gaps.
+  // The states in an order without gaps.
   MailSlot<DeviceState> states;
-  DeviceState state;  // Of the thread.
+  DeviceState state;  // For the device's thread only.
   detail::FileDescriptor listener;
   std::list<Connection> connections;
   std::string page;
   std::mutex mutex;
-  std::string picture;  // To the page.
+  std::string picture;  // The newest message for the page.
   DeviceCapabilities capabilities;
   detail::DriverReport report;
   detail::StopSignal stop;

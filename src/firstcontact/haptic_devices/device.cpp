@@ -8,7 +8,7 @@
 namespace firstcontact {
 namespace {
 
-/// The components that are driven, with a length of at most `most`.
+/// Takes the driven components of a vector, with a length of at most `most`.
 Eigen::Vector3d limited_part(const Eigen::Vector3d& vector, const std::array<bool, 3>& driven,
                              double most) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
@@ -20,7 +20,7 @@ Eigen::Vector3d limited_part(const Eigen::Vector3d& vector, const std::array<boo
   if (!(most > 0.0) || !(largest > 0.0)) {
     return Eigen::Vector3d::Zero();
   }
-  // Scaled first, as the square of a length may overflow.
+  // Scaled before the norm, as the square of a length may overflow.
   const Eigen::Vector3d scaled = result / largest;
   const double length = scaled.norm();
   return length <= most / largest ? result : Eigen::Vector3d(scaled * (most / length));

@@ -113,8 +113,8 @@ struct DeviceState {
   /// The number of the sample. Equal numbers are the same sample; a jump shows how many were
   /// missed.
   std::uint64_t sequence = 0;
-  /// [-]  How far fingers are bent, or a gripper is closed: 0 open, 1 closed. Values below 0 and
-  /// above 1 may occur.
+  /// [-]  Bend of fingers, or closure of a gripper: 0 open, 1 closed. Values below 0 and above 1
+  /// may occur.
   std::array<double, kMostGrips> grips{};
   /// The buttons: bit i is set while button i is pressed.
   std::uint32_t buttons = 0;
@@ -158,9 +158,9 @@ struct DeviceCounts {
 /// **Loss.** A lost device goes on to answer: see `DeviceState`. A driver that can open the device
 /// again does so by itself. It then starts with a new connection, without a force.
 ///
-/// **Safety.** A device limits each command to `max_force` and `max_torque`, takes a component that
-/// is not finite as a command of zero, and falls back to zero force by itself where no command came
-/// for 100 ms. The destructor sets the force to zero before it lets the device go.
+/// **Safety.** A device limits each command to `max_force` and `max_torque`. It takes a component
+/// that is not finite as a command of zero. It falls back to zero force by itself where no command
+/// came for 100 ms. The destructor sets the force to zero before it lets the device go.
 class FIRSTCONTACT_API Device {
  public:
   Device() = default;
@@ -195,7 +195,7 @@ class FIRSTCONTACT_API Device {
 [[nodiscard]] FIRSTCONTACT_API ForceCommand
 limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept;
 
-/// How long a force lasts without a further command.
+/// Lifetime of a command: a force lasts so long without a further one.
 inline constexpr std::int64_t kCommandLifetimeNs = 100'000'000;
 
 }  // namespace firstcontact

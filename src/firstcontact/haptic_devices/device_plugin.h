@@ -24,10 +24,10 @@
 extern "C" {
 #endif
 
-/** The version of this interface. It changes where a structure or a promise changes. */
+/** The version of this interface. It changes with each change of a structure or a promise. */
 #define FIRSTCONTACT_DEVICE_PLUGIN_ABI 1
 
-/** What the numbers of a device mean. */
+/** The meaning of the numbers of a device. */
 enum {
   FIRSTCONTACT_DEVICE_POSE = 0, /**< The handle is at a place. */
   FIRSTCONTACT_DEVICE_RATE = 1  /**< A deflected cap sets velocities. */
@@ -43,10 +43,10 @@ enum {
 
 /** The abilities and limits of a device. All is 0 before the plug-in fills it in. */
 struct firstcontact_device_abilities {
-  char name[64];                /**< Of the model, ended by 0. */
-  char id[64];                  /**< Of the specimen, ended by 0. */
+  char name[64];                /**< Name of the model, ended by 0. */
+  char id[64];                  /**< Name of the specimen, ended by 0. */
   int32_t kind;                 /**< FIRSTCONTACT_DEVICE_POSE or _RATE. */
-  int32_t buttons;              /**< 0 to 32. */
+  int32_t buttons;              /**< Number of buttons, 0 to 32. */
   uint8_t sensed[6];            /**< 1 where sensed: along x, y, z, about x, y, z. */
   uint8_t driven[6];            /**< 1 where driven. */
   uint8_t reserved[4];          /**< 0. */
@@ -56,7 +56,7 @@ struct firstcontact_device_abilities {
   double max_angular_stiffness; /**< [N m/rad] */
   double max_damping;           /**< [N s/m] */
   double max_angular_damping;   /**< [N m s/rad] */
-  double workspace_radius;      /**< [m]         About the origin of D. 0 stands for unknown. */
+  double workspace_radius;      /**< [m]         Reach about the origin of D; 0 for unknown. */
   double damping;               /**< [N s/m]     Own damping of the mechanism, at least. */
   double angular_damping;       /**< [N m s/rad] */
   double friction;              /**< [N]         Own Coulomb friction, at least. */
@@ -68,9 +68,9 @@ struct firstcontact_device_abilities {
 
 /** One sample. All is 0 before the plug-in fills it in. */
 struct firstcontact_device_sample {
-  double position[3];        /**< [m]     Of H's origin in D. */
+  double position[3];        /**< [m]     Position of H's origin in D. */
   double quaternion_wxyz[4]; /**< [-]     Unit quaternion: turns axes of H to those of D. */
-  double linear_rate[3];     /**< [m/s]   Of a rate device; or measured, or 0. */
+  double linear_rate[3];     /**< [m/s]   Set by a rate device; else measured, or 0. */
   double angular_rate[3];    /**< [rad/s] */
   int64_t time_ns;           /**< When the sample was taken, on the clock of now_ns. */
   uint64_t sequence;         /**< Counts the samples. */
@@ -89,7 +89,7 @@ struct firstcontact_device_plugin_functions {
    * Opens the device. May block.
    *
    * @param settings      text of the user, as "serial=12"; never null
-   * @param problem       takes why it failed, ended by 0
+   * @param problem       takes the reason of a failure, ended by 0
    * @param problem_size  [byte]  room in it
    * @returns null on failure
    */
@@ -115,14 +115,14 @@ struct firstcontact_device_plugin_functions {
   void (*close)(void* device);
 };
 
-/** Values of grips that a device senses at most. */
+/** The most values of grips that a device senses. */
 #define FIRSTCONTACT_DEVICE_MOST_GRIPS 16
 
 /** The abilities of a glove or a gripper. All is 0 before the plug-in fills it in. */
 struct firstcontact_device_grip_abilities {
   int32_t grips;          /**< 0 to FIRSTCONTACT_DEVICE_MOST_GRIPS: values that are sensed. */
   int32_t reserved;       /**< 0. */
-  double max_grip_effort; /**< [J]  Of each grip; 0 where none is driven. */
+  double max_grip_effort; /**< [J]  Greatest effort of a grip; 0 where none is driven. */
 };
 
 /** The functions of a plug-in whose device has grips, beside the others. */
@@ -130,17 +130,17 @@ struct firstcontact_device_grip_functions {
   uint32_t abi;            /**< FIRSTCONTACT_DEVICE_PLUGIN_ABI, as the plug-in was compiled. */
   uint32_t abilities_size; /**< sizeof(struct firstcontact_device_grip_abilities) */
 
-  /** Fills in the abilities. Called once behind `describe` of the device. */
+  /** Fills in the abilities. Called once after `describe` of the device. */
   void (*describe)(void* device, struct firstcontact_device_grip_abilities* abilities);
 
   /**
-   * Gives the values of the sample that `read` of the device gave last: 0 open, 1 closed. The same
-   * rules as for that function.
+   * Gives the values of the newest sample of `read` of the device: 0 open, 1 closed. The same
+   * rules hold as for that function.
    */
   void (*read)(void* device, double values[FIRSTCONTACT_DEVICE_MOST_GRIPS]);
 
   /**
-   * Commands the efforts on the values from now on [J]. Called behind `command` of the device, by
+   * Commands the efforts on the values from now on [J]. Called after `command` of the device, by
    * the same rules. Null where no grip is driven.
    */
   void (*command)(void* device, int64_t now_ns,
@@ -154,7 +154,7 @@ __attribute__((visibility("default")))
 const struct firstcontact_device_plugin_functions*
 firstcontact_device_plugin(void);
 
-/** A second one, of a plug-in whose device has grips. One that has none leaves it out. */
+/** A second function, exported only by a plug-in whose device has grips. */
 #if defined(__GNUC__)
 __attribute__((visibility("default")))
 #endif

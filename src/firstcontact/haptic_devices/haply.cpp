@@ -26,12 +26,13 @@ namespace {
 using detail::WaitEnd;
 using detail::WebSocketKind;
 
-constexpr std::size_t kMostMessage = 1 << 20;       // [byte]  Messages have some thousands.
-constexpr int kMostOnTheWay = 2;                    // Messages without an answer.
-constexpr std::int64_t kAnswerLostNs = 20'000'000;  // Then a message counts as lost.
-constexpr std::int64_t kKeepAliveNs = 50'000'000;   // Between empty messages.
-constexpr std::int64_t kSendNs = 100'000'000;       // Limit for one message.
-constexpr std::string_view kEmptyMessage = "{}";    // Keeps a connection.
+constexpr std::size_t kMostMessage = 1 << 20;  // [byte]  Messages have some thousands.
+constexpr int kMostOnTheWay = 2;               // Messages without an answer.
+// [ns]  Time after which a message counts as lost.
+constexpr std::int64_t kAnswerLostNs = 20'000'000;
+constexpr std::int64_t kKeepAliveNs = 50'000'000;  // [ns]  Pause between empty messages.
+constexpr std::int64_t kSendNs = 100'000'000;      // [ns]  Limit for one message.
+constexpr std::string_view kEmptyMessage = "{}";   // Keeps a connection.
 constexpr const char* kProfile = "firstcontact:haptics";
 
 void require_haply(bool holds, const char* what) {
@@ -56,7 +57,7 @@ const HaplyOptions& checked_haply(const HaplyOptions& options) {
 }  // namespace
 
 struct Haply::Data {
-  /// A command, and when it was given.
+  /// A command, with the time at which it was given.
   struct TimedForce {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     std::int64_t given_ns = std::numeric_limits<std::int64_t>::min();
@@ -67,7 +68,7 @@ struct Haply::Data {
     detail::FileDescriptor socket;
     detail::WebSocketReader reader{detail::WebSocketSide::client, kMostMessage};
     std::int64_t since_ns = 0;
-    bool closed = false;  // By the other side.
+    bool closed = false;  // Whether the other side closed it.
   };
 
   explicit Data(const HaplyOptions& given) : options(checked_haply(given)) {
@@ -81,12 +82,13 @@ struct Haply::Data {
   // --- Frames.
 
   bool send(Link& link, WebSocketKind kind, std::string_view payload) {
-    mask = mask * 1'664'525 + 1'013'904'223;  // Only has to differ; nothing here is secret.
+    // The mask only has to differ; nothing here is secret.
+    mask = mask * 1'664'525 + 1'013'904'223;
     return detail::send_all(link.socket, detail::websocket_frame(kind, payload, mask), stop,
                             steady_now_ns() + kSendNs);
   }
 
-  /// Reads what is there. The texts among it go to `take`; pings are answered.
+  /// Reads all bytes that are there. Texts go to `take`; pings are answered.
   template <class Take>
   void read_messages(Link& link, Take take) {
     std::array<char, 16'384> buffer{};
@@ -108,7 +110,7 @@ struct Haply::Data {
 
   // --- Connections.
 
-  /// Connects and shakes hands.
+  /// Connects, with the handshake.
   [[nodiscard]] std::optional<Link> open(std::int64_t until_ns, std::string& problem) {
     Link link;
     link.socket = detail::connect_tcp(options.host, options.port, stop, until_ns, problem);
@@ -125,7 +127,7 @@ struct Haply::Data {
     return link;
   }
 
-  /// Empty, or why the other side is no service.
+  /// Makes the handshake. Returns why the other side is not the service; empty if it is.
   [[nodiscard]] std::string shake_hands(Link& link, std::int64_t until_ns) {
     std::random_device random;
     std::array<std::uint8_t, 16> bytes{};
@@ -220,7 +222,8 @@ struct Haply::Data {
 
   // --- The exchange of states and forces.
 
-  /// Of the thread; the lock of the report is taken only where the problem is another one.
+  /// Sets the problem, from the driver's thread. The lock of the report is taken only where the
+  /// problem changes.
   void set_problem(const std::string& problem) {
     if (problem != reported) {
       reported = problem;
@@ -228,7 +231,8 @@ struct Haply::Data {
     }
   }
 
-  // Who sees a count finds what it counts, and who sees a state its reason: those are told first.
+  // Samples come before counts, and reasons before states: a thread that sees the second finds the
+  // first.
   void take_state(const detail::HaplyMessage& message) {
     note_generation(message);
     if (message.device_id.empty() || !message.ready) {
@@ -256,7 +260,7 @@ struct Haply::Data {
     }
   }
 
-  /// The newest command, if it is of this connection and young enough; else zero.
+  /// The newest command, if it belongs to this connection and is not too old; else zero.
   [[nodiscard]] Eigen::Vector3d force_now(const Link& link) {
     const TimedForce& newest = commands.newest();
     const bool valid =
@@ -269,7 +273,9 @@ struct Haply::Data {
                                first && since_3_5 ? kProfile : "");
   }
 
-  /// @param is_named  whether the service has heard which program this is
+  /// Sends the force.
+  ///
+  /// @param is_named  whether the service knows the name of this program
   bool send_force(Link& link, bool& is_named) {
     if (state.status == DeviceStatus::lost) {
       return send(link, WebSocketKind::text, kEmptyMessage);
@@ -279,7 +285,7 @@ struct Haply::Data {
     return send(link, WebSocketKind::text, message);
   }
 
-  /// Exchanges until the connection ends or the driver stops. Returns why it ended.
+  /// Exchanges messages until the connection ends or the driver stops. Returns why it ended.
   [[nodiscard]] std::string exchange(Link& link) {
     const auto period_ns = static_cast<std::int64_t>(1e9 / options.rate);
     std::int64_t sent_ns = link.since_ns - period_ns;
@@ -320,7 +326,7 @@ struct Haply::Data {
                                          : link.reader.failure();
   }
 
-  /// Whether the text is a state of the service.
+  /// Takes a text. Returns whether it is a state of the service.
   bool take_text(const std::string& text) {
     try {
       take_state(detail::parse_haply_message(text, choice));
@@ -339,7 +345,7 @@ struct Haply::Data {
         ++report.connections;
         const std::string reason = exchange(*link);
         if (reason.empty()) {
-          // A stop must not wait: what the socket does not take at once is left out.
+          // A stop must not wait: bytes that the socket does not take at once are dropped.
           (void)send(*link, WebSocketKind::text, force_message(Eigen::Vector3d::Zero(), false));
           (void)send(*link, WebSocketKind::close, {});
           return;
@@ -361,11 +367,11 @@ struct Haply::Data {
     }
   }
 
-  // In an order without gaps.
+  // The states in an order without gaps.
   MailSlot<DeviceState> states;
   MailSlot<TimedForce> commands;
-  DeviceState state;     // Of the thread.
-  std::string reported;  // So, too: the problem of the report.
+  DeviceState state;     // For the driver's thread only.
+  std::string reported;  // For the driver's thread only: the problem of the report.
   HaplyOptions options;
   detail::HaplyChoice choice;
   DeviceCapabilities capabilities;

@@ -40,7 +40,7 @@ Library load_library(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) {
     throw ParseError(path.string(), "expected a plug-in for a haptic device, found no file");
   }
-  // Without a folder in its name the loader would search the system.
+  // An absolute path: without a folder in its name the loader would search the system.
   Library library(::dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL));
   if (library == nullptr) {
     throw ParseError(path.string(), "expected a shared library: " + last_error_of_loader());
@@ -82,7 +82,7 @@ using GripAbilities = firstcontact_device_grip_abilities;
 constexpr const char* kGripEntry = "firstcontact_device_plugin_grips";
 static_assert(kMostGrips == FIRSTCONTACT_DEVICE_MOST_GRIPS);
 
-/// Null where the plug-in has no grips.
+/// Finds the functions of grips; null where the plug-in has none.
 const GripFunctions* grip_functions_of(const Library& library, const std::string& path) {
   void* entry = ::dlsym(library.get(), kGripEntry);
   if (entry == nullptr) {
@@ -170,7 +170,7 @@ DeviceCapabilities plugin_capabilities(const Abilities& abilities, const std::st
   return result;
 }
 
-/// The state of a sample. What makes no sense comes out as lost, with a quaternion of 0.
+/// Makes the state of a sample. An invalid sample becomes `lost`, with a quaternion of 0.
 DeviceState plugin_state(const Sample& sample) {
   DeviceState state;
   const auto& q = sample.quaternion_wxyz;
@@ -283,7 +283,7 @@ class PluginDevice : public Device {
     }
   }
 
-  /// Rate devices need give no pose.
+  /// Whether a state is valid. Rate devices need give no pose.
   [[nodiscard]] bool sensible(const DeviceState& state) const noexcept {
     DeviceState checked = state;
     if (capabilities_.kind == DeviceKind::rate) {
@@ -294,13 +294,13 @@ class PluginDevice : public Device {
 
   Library library_;
   const Functions& functions_;
-  const GripFunctions* grips_;  // Null without grips.
+  const GripFunctions* grips_;  // Null for a plug-in without grips.
   void* device_ = nullptr;
   DeviceCapabilities capabilities_;
   DeviceState last_;
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::uint64_t> malformed_{0};
-  /// That the plug-in gave; silent where its sample made no sense.
+  /// The status that the plug-in gave; silent where its sample was invalid.
   std::atomic<DeviceStatus> newest_status_{DeviceStatus::live};
 };
 

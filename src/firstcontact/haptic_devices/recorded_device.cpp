@@ -9,7 +9,7 @@
 namespace firstcontact {
 namespace {
 
-/// a - b, or the nearest integer that can be represented.
+/// Computes a - b, or the nearest integer that can be represented.
 std::int64_t saturated_difference(std::int64_t a, std::int64_t b) noexcept {
   std::int64_t result = 0;
   if (__builtin_sub_overflow(a, b, &result)) {

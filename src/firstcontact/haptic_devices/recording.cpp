@@ -43,7 +43,7 @@ enum class Column {
   wx,
   wy,
   wz,
-  other,  ///< Of another program: its name has a dot.
+  other,  ///< A column of another program: its name has a dot.
 };
 constexpr std::size_t kColumns = static_cast<std::size_t>(Column::other);
 constexpr std::array<std::string_view, kColumns> kColumnNames{
@@ -52,7 +52,7 @@ constexpr std::array<std::string_view, kColumns> kColumnNames{
 
 constexpr std::string_view kGrip = "grip";
 
-/// The number of a column "grip0" to "grip15"; none of another name.
+/// Finds the number of a column "grip0" to "grip15"; none for another name.
 std::optional<std::size_t> grip_of(std::string_view name) {
   for (std::size_t k = 0; k < kMostGrips; ++k) {
     if (name == std::string(kGrip) + std::to_string(k)) {
@@ -74,7 +74,7 @@ bool is_needed(Column column, DeviceKind kind) {
   return kind == DeviceKind::pose ? of_pose : of_rate;
 }
 
-/// Numbers of buttons: the most that samples can have, and that of a head that has none.
+/// Numbers of buttons: the most that samples can have, and the number for a head that states none.
 constexpr int kMostButtons = 32;
 constexpr int kUnstated = -1;
 
@@ -117,7 +117,7 @@ class RecordingParser {
          "): " + message);
   }
 
-  /// Goes to the next line that holds something.
+  /// Goes to the next line that is not empty.
   bool next_line() {
     do {
       if (rest_.empty()) {
@@ -214,7 +214,8 @@ class RecordingParser {
     }
   }
 
-  /// Without their column none is ever pressed; without their key there may be any.
+  /// Counts the buttons. Without their column none is ever pressed; without their key there may be
+  /// any.
   void count_buttons() {
     int& buttons = recording_.capabilities.buttons;
     if (std::ranges::find(columns_, Column::buttons) == columns_.end()) {
@@ -326,7 +327,8 @@ class RecordingParser {
     }
   }
 
-  /// Each of the three numbers may be within the bound, and all together beyond it.
+  /// Requires a bound of a length. Each of the three numbers may be within it, and the length
+  /// beyond it.
   void require_length(const Eigen::Vector3d& vector, const char* what, const char* unit) const {
     if (!(vector.norm() <= detail::kMostOfSample)) {
       fail(std::string("expected ") + what + " of at most 1e6 " + unit + " in length, got " +
@@ -356,7 +358,7 @@ class RecordingParser {
   std::size_t number_ = 0;
   std::vector<std::string_view> names_;
   std::vector<Column> columns_;
-  std::vector<std::optional<std::size_t>> grips_;  // Of columns: which grip.
+  std::vector<std::optional<std::size_t>> grips_;  // For each column the number of its grip.
   std::vector<std::string_view> cells_;
   std::vector<std::string_view> keys_;
   Recording recording_;

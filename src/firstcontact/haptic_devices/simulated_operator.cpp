@@ -119,12 +119,12 @@ DeviceCapabilities operator_capabilities(const SimulatedOperatorOptions& options
   return result;
 }
 
-/// In integers; what is longer than 100 years is 100 years.
+/// Converts to nanoseconds; a time longer than 100 years becomes 100 years.
 std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::ceil(std::clamp(seconds, -3e9, 3e9) * 1e9));
 }
 
-/// As an encoder of this step shows it.
+/// Rounds as an encoder of this step does.
 Eigen::Vector3d rounded(const Eigen::Vector3d& vector, double step) {
   return step > 0.0 ? Eigen::Vector3d(step * (vector / step).array().round().matrix()) : vector;
 }
@@ -172,7 +172,7 @@ void SimulatedOperator::update_hold() noexcept {
   if (held == truth_.held) {
     return;
   }
-  // The mass of the hand comes and goes at the speed of the handle; its energy is of the hand.
+  // The mass of the hand joins and leaves at the speed of the handle; its energy is the hand's.
   truth_.held = held;
   const double kinetic = 0.5 * options_.hand.mass * truth_.velocity.squaredNorm() +
                          0.5 * options_.hand.inertia * truth_.angular_velocity.squaredNorm();
@@ -327,7 +327,7 @@ void SimulatedOperator::command(const ForceCommand& command, std::int64_t now_ns
     const PendingCommand& last = pending_[(first_pending_ + pending_count_ - 1) % kDepth];
     next.begin_ns = std::max(next.begin_ns, last.begin_ns);
   }
-  // A loop that sends faster than commands take effect replaces the newest of them.
+  // A loop that sends faster than commands take effect replaces the newest command.
   pending_count_ = std::min(pending_count_ + 1, kDepth);
   pending_[(first_pending_ + pending_count_ - 1) % kDepth] = next;
 }

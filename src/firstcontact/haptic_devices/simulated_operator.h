@@ -140,7 +140,7 @@ class FIRSTCONTACT_API SimulatedOperator : public Device {
     double phase = 0.0;      // [rad]
   };
   struct ReleaseTime {
-    std::int64_t begin_ns = 0;  // From the begin.
+    std::int64_t begin_ns = 0;  // Time since the begin of the path.
     std::int64_t end_ns = 0;
   };
 
@@ -162,13 +162,13 @@ class FIRSTCONTACT_API SimulatedOperator : public Device {
   bool started_ = false;
   std::int64_t origin_ns_ = 0;
   std::int64_t now_ns_ = 0;
-  double time_ = 0.0;  // [s]  Of now_ns_.
+  double time_ = 0.0;  // [s]  Path time of now_ns_.
   std::size_t piece_ = 0;
-  std::size_t release_ = 0;  // The first that is not over.
+  std::size_t release_ = 0;  // Index of the first one that is not over.
   OperatorTruth truth_;
   OperatorEnergy energy_;
 
-  ForceCommand force_;  // In effect.
+  ForceCommand force_;  // The command in effect.
   std::int64_t force_until_ns_ = 0;
   std::array<PendingCommand, kDepth> pending_{};
   std::size_t first_pending_ = 0;

@@ -18,7 +18,8 @@ namespace firstcontact {
 namespace {
 
 constexpr const char* kDefaultSocket = "/var/run/spnav.sock";
-constexpr std::int64_t kAnswerNs = 300'000'000;  // What daemons of version 1 need at most.
+// [ns]  The time in which daemons of version 1 answer.
+constexpr std::int64_t kAnswerNs = 300'000'000;
 
 void require_option(bool holds, const char* what) {
   if (!holds) {
@@ -66,7 +67,7 @@ struct SpaceMouse::Data {
 
   void put() { slot.put(rates.sample()); }
 
-  /// Connects and asks for version 1 of the protocol.
+  /// Connects and requests version 1 of the protocol.
   [[nodiscard]] detail::FileDescriptor connect(std::string& problem) {
     detail::FileDescriptor socket = detail::connect_local(options.socket, problem);
     if (socket.is_open() && !detail::send_all(socket, detail::spacenav_protocol_request(), stop,
@@ -81,7 +82,7 @@ struct SpaceMouse::Data {
     return socket;
   }
 
-  // Who sees a state finds its reason: that is told first.
+  // Reasons come before states: a thread that sees a state finds its reason.
   void take(const detail::SpacenavEvent& event) {
     const std::uint64_t before = rates.sample().state.sequence;
     const bool is_new = rates.take(event, steady_now_ns());
@@ -117,7 +118,7 @@ struct SpaceMouse::Data {
                                            steady_now_ns() + kAnswerNs)) {
           break;
         }
-        answered = true;  // A daemon of version 0 answers nothing.
+        answered = true;  // A daemon of version 0 does not answer.
         until_ns = std::numeric_limits<std::int64_t>::max();
         continue;
       }

@@ -1,5 +1,5 @@
 /// @file
-/// What the thread of a driver reports to threads that are not the force loop.
+/// The report of a driver's thread to threads that are not the force loop.
 
 #pragma once
 

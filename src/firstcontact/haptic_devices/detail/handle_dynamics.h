@@ -9,30 +9,32 @@
 
 namespace firstcontact::detail {
 
-/// One spring, damper and inertia with friction, along all directions or about all axes alike.
+/// The law of a handle: one spring, damper and inertia with friction, equal along all directions or
+/// about all axes.
 struct HandleLaw {
-  double inertia = 1.0;     ///< [kg], [kg m^2]             > 0.
-  double stiffness = 0.0;   ///< [N/m], [N m/rad]           Of the hand.
-  double hand_damping = 0;  ///< [N s/m], [N m s/rad]       Against the rate of the target.
-  double most = 0.0;        ///< [N], [N m]                 Of the spring.
-  double damping = 0.0;     ///< [N s/m], [N m s/rad]       Of the mechanism, against rest.
-  double friction = 0.0;    ///< [N], [N m]                 Coulomb friction of the mechanism.
+  double inertia = 1.0;    ///< [kg], [kg m^2]             > 0.
+  double stiffness = 0.0;  ///< [N/m], [N m/rad]           Stiffness of the hand.
+  /// [N s/m], [N m s/rad]  Damping of the hand, against the rate of the target.
+  double hand_damping = 0;
+  double most = 0.0;      ///< [N], [N m]                 Greatest force of the spring.
+  double damping = 0.0;   ///< [N s/m], [N m s/rad]       Damping of the mechanism, against rest.
+  double friction = 0.0;  ///< [N], [N m]                 Coulomb friction of the mechanism.
 };
 
 /// Energies since the begin [J].
 struct HandleEnergy {
   double command_work = 0.0;  ///< Done by the commanded force on the handle.
   double hand_work = 0.0;     ///< Done by the hand.
-  double dissipated = 0.0;    ///< By the damping and the friction of the mechanism.
+  double dissipated = 0.0;    ///< Taken by the damping and the friction of the mechanism.
 };
 
-/// The new rate after one sub-step, and the energies of the step.
+/// Computes the new rate after one sub-step, and the energies of the step.
 ///
 /// The rule is that of Verlet: half a step of place, a step of rate, half a step of place. Damping
-/// acts on the mean of the rates before and after, friction takes from the rate behind all other
-/// forces, at most to rest. So friction holds a handle still up to its limit. With
-/// D = displacement = (old rate + new rate) h / 2 the change of kinetic energy is exactly
-/// command . D + hand . D - dissipated.
+/// acts on the mean of the rates before and after. Friction acts last: it reduces the rate that all
+/// other forces give, at most to rest. So friction holds a handle still up to its limit. With D =
+/// displacement = (old rate + new rate) h / 2 the change of kinetic energy is exactly command . D +
+/// hand . D - dissipated.
 ///
 /// @param deviation    [m], [rad]  target less the place in the middle of the step
 /// @param target_rate  [m/s], [rad/s]

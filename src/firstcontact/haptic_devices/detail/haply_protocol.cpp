@@ -24,7 +24,7 @@ const std::string& source_name() {
   return name;
 }
 
-/// Takes values out of one message.
+/// Reads values from one message.
 class HaplyReader {
  public:
   explicit HaplyReader(const JsonValue& root) : root_(root), reader_(root, source_name()) {}
@@ -43,7 +43,7 @@ class HaplyReader {
   }
 
  private:
-  /// A grip that makes no sense does not take the position of the device with it.
+  /// Reads the grip. An invalid grip does not make the position of the device invalid.
   void take_grip(const JsonObject& all, const HaplyChoice& choice, HaplyMessage& message) const {
     try {
       if (const JsonObject* grip = first_grip(all, choice.grip_id)) {
@@ -56,7 +56,7 @@ class HaplyReader {
     }
   }
 
-  /// Whether the service reports that a grip is there: one that is gone holds no button.
+  /// Whether the service reports that a grip is present: the buttons of an absent one do not count.
   [[nodiscard]] bool is_there(const JsonObject& grip) const {
     const JsonObject* status = part(grip, "status");
     for (const char* key : {"connected", "ready"}) {
@@ -75,7 +75,7 @@ class HaplyReader {
     reader_.fail_expected("an object", value);
   }
 
-  /// The member of a key if it is an object.
+  /// Finds the member of a key if it is an object.
   [[nodiscard]] const JsonObject* part(const JsonObject& object, std::string_view key) const {
     const JsonValue* value = find(object, key);
     return value == nullptr ? nullptr : &this->object(*value);
@@ -86,7 +86,7 @@ class HaplyReader {
     return id == nullptr ? std::string() : reader_.string(*id, "a device id");
   }
 
-  /// The device with this id, or the first one.
+  /// Finds the device with this id, or the first one.
   [[nodiscard]] const JsonObject* chosen(const JsonValue& list, const std::string& id) const {
     for (const JsonValue& value : reader_.array(list, "a list of devices")) {
       const JsonObject& device = object(value);
@@ -173,8 +173,8 @@ class HaplyReader {
     }
   }
 
-  /// Bit i is that of the button whose name is the i-th in the order of letters: a, b, c, or
-  /// button_0, button_1 and so on.
+  /// Reads the pressed buttons. Bit i is that of the button whose name is the i-th in alphabetical
+  /// order: a, b, c, or button_0, button_1 and so on.
   [[nodiscard]] std::uint32_t pressed(const JsonObject& buttons) const {
     std::vector<std::pair<std::string_view, bool>> named;
     for (const JsonMember& member : buttons) {

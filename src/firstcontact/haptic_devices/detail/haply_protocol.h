@@ -13,34 +13,35 @@
 
 namespace firstcontact::detail {
 
-/// What one message of the service says.
+/// The content of one message of the service.
 struct HaplyMessage {
-  std::optional<Eigen::Quaterniond> orientation;       ///< Of the grip; of length 1.
+  std::optional<Eigen::Quaterniond> orientation;       ///< Orientation of the grip; of length 1.
   std::optional<Eigen::Vector3d> position;             ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  std::string device_id;                               ///< Of the Inverse3; empty if there is none.
+  std::string device_id;                               ///< The Inverse3; empty if there is none.
   std::string model;          ///< `config.type` of the Inverse3, where the message has it.
-  std::uint32_t buttons = 0;  ///< Of the grip, in the order of their names.
-  bool ready = true;          ///< As its `status` reports.
-  bool has_session = false;   ///< As messages of 3.5 have.
-  std::string grip_problem;   ///< Why the grip was left out; empty where nothing is wrong.
+  std::uint32_t buttons = 0;  ///< Buttons of the grip, in the order of their names.
+  bool ready = true;          ///< Whether its `status` reports that it is ready.
+  bool has_session = false;   ///< Whether it has a session, as messages of 3.5 have.
+  /// The reason why the grip was left out; empty where nothing is wrong.
+  std::string grip_problem;
 };
 
-/// Which devices of a message are looked at. Empty for the first one.
+/// The devices of a message that are read. Empty for the first one.
 struct HaplyChoice {
   std::string device_id;
   std::string grip_id;
 };
 
-/// Parses a message. Keys that are not known are left out.
+/// Parses a message. Unknown keys are left out.
 ///
-/// Grips are looked for in all lists whose name ends in "verse_grip", wired ones first: so the list
-/// of 3.5 with its own types is read as well.
+/// Grips are searched for in all lists whose name ends in "verse_grip", wired ones first. So the
+/// list of 3.5 with its own types is read as well.
 ///
-/// @throws ParseError  where a value is not what its key needs
+/// @throws ParseError  where a value does not fit its key
 [[nodiscard]] HaplyMessage parse_haply_message(std::string_view text, const HaplyChoice& choice);
 
-/// The message that commands a force [N], and so asks for the next state.
+/// Writes the message that commands a force [N], and so requests the next state.
 ///
 /// @param vector_key  "vector" since 3.5, "values" before
 /// @param profile     names the program, in the first message of a connection; else empty

@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// The pose of a sample, without rates and with all buttons released.
+/// Makes a state with the pose of a sample, without rates and with all buttons released.
 [[nodiscard]] inline DeviceState quiet(DeviceState sample, DeviceStatus status) noexcept {
   sample.linear_rate.setZero();
   sample.angular_rate.setZero();
@@ -22,10 +22,11 @@ namespace firstcontact::detail {
   return sample;
 }
 
-/// [m, m/s and rad/s]  A device that is farther away or faster has lost its reading.
+/// [m, m/s and rad/s]  Bound of a valid sample. A device that is farther away or faster has lost
+/// its reading.
 inline constexpr double kMostOfSample = 1e6;
 
-/// Whether the values of grips are numbers.
+/// Whether the values of grips are finite and within the bound.
 [[nodiscard]] inline bool are_grips(const DeviceState& sample) noexcept {
   return std::all_of(sample.grips.begin(), sample.grips.end(),
                      [](double value) { return std::abs(value) <= kMostOfSample; });

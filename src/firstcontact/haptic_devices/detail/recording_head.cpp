@@ -19,7 +19,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A key of one number that is not negative, or infinite.
+/// A key whose value is one number >= 0, or infinite.
 struct NumberKey {
   const char* name;
   double DeviceCapabilities::*value;
@@ -175,7 +175,7 @@ void put(std::string& text, const char* key, const std::string& value) {
   text += std::string("# ") + key + ": " + value + "\n";
 }
 
-/// A number of the head. NaN has no text.
+/// Writes a number of the head. NaN has no text.
 std::string written(const char* key, double value) {
   if (std::isnan(value)) {
     throw std::invalid_argument(std::string("DeviceCapabilities::") + key + " is NaN");

@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// The rotation by |vector| about the vector.
+/// The rotation by the angle |vector| [rad] about the vector.
 [[nodiscard]] inline Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) noexcept {
   const double square = vector.squaredNorm();
   if (square < 1e-6) {  // The series leaves out less than 1e-17.

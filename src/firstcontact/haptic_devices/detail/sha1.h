@@ -1,5 +1,5 @@
 /// @file
-/// SHA-1, which the handshake of WebSockets needs. Not for anything that must be safe.
+/// SHA-1, for the handshake of WebSockets. It protects nothing.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// The digest of a short text.
+/// Computes the digest of a short text.
 ///
 /// Source: NIST FIPS 180-4, "Secure Hash Standard", 2015, sections 5 and 6.1.
 [[nodiscard]] std::array<std::uint8_t, 20> sha1(std::string_view bytes);

@@ -40,7 +40,7 @@ int poll_until(std::span<pollfd> descriptors, std::int64_t until_ns) noexcept {
   }
 }
 
-/// One address of a host. The descriptor is closed without success.
+/// Connects to one address of a host. On failure the descriptor is closed.
 FileDescriptor connect_address(const addrinfo& address, const StopSignal& stop,
                                std::int64_t until_ns, std::string& problem) {
   FileDescriptor socket(::socket(
@@ -70,7 +70,7 @@ FileDescriptor connect_address(const addrinfo& address, const StopSignal& stop,
   return socket;
 }
 
-/// The addresses of a host, once the event `done` can be read.
+/// The addresses of a host; they are there once the event `done` can be read.
 struct HostLookup {
   HostLookup() : done(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (!done.is_open()) {
@@ -91,7 +91,7 @@ struct HostLookup {
   int error = 0;
 };
 
-/// Looks a host up on a thread of its own: the system gives no look-up that can be ended.
+/// Looks a host up on a thread of its own: the system has no look-up that can be ended.
 std::shared_ptr<HostLookup> look_up(const std::string& host, std::uint16_t port) {
   auto lookup = std::make_shared<HostLookup>();
   std::thread([lookup, host, service = std::to_string(port)] {
@@ -122,7 +122,7 @@ StopSignal::StopSignal() : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
 void StopSignal::set() noexcept {
   set_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
-  // It can only fail if the counter is full, and then the event is set.
+  // The write can only fail if the counter is full, and then the event is set.
   [[maybe_unused]] const ssize_t written = ::write(event_.number(), &one, sizeof one);
 }
 
@@ -165,7 +165,7 @@ FileDescriptor connect_tcp(const std::string& host, std::uint16_t port, const St
   std::shared_ptr<HostLookup> lookup;
   try {
     lookup = look_up(host, port);
-  } catch (const std::system_error& error) {  // Neither a descriptor nor a thread is left.
+  } catch (const std::system_error& error) {  // The system has no descriptor or no thread left.
     problem = error.what();
     return FileDescriptor();
   }

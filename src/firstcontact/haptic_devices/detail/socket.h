@@ -1,5 +1,5 @@
 /// @file
-/// Local sockets of drivers, which wait with a deadline and can be stopped.
+/// Local sockets of drivers. Their waits have a deadline and can be stopped.
 
 #pragma once
 
@@ -32,9 +32,11 @@ class FileDescriptor {
   int number_;
 };
 
-/// Ends the waits of one thread, from another one. Once set it stays set.
+/// A signal that ends the waits of one thread, from another one. Once set it stays set.
 class StopSignal {
  public:
+  /// Makes a signal that is not set.
+  ///
   /// @throws std::system_error  if the system gives no descriptor
   StopSignal();
 
@@ -47,7 +49,9 @@ class StopSignal {
   std::atomic<bool> set_{false};
 };
 
+/// The reason why a wait ended.
 enum class WaitEnd { ready, stopped, timed_out };
+/// The operation for which a socket has to be ready.
 enum class WaitFor { reading, writing };
 
 /// Waits until a socket can be read or written, the signal is set, or the steady clock is at
@@ -58,25 +62,27 @@ enum class WaitFor { reading, writing };
 /// Sleeps until the signal is set or the steady clock is at `until_ns`.
 [[nodiscard]] WaitEnd wait_for(const StopSignal& stop, std::int64_t until_ns) noexcept;
 
-/// Connects to a socket of the file system. Without success the descriptor is closed, and `problem`
-/// has the reason.
+/// Connects to a socket of the file system. On failure the descriptor is closed, and `problem` has
+/// the reason.
 [[nodiscard]] FileDescriptor connect_local(const std::string& path, std::string& problem);
 
-/// Connects to a port of TCP, by all addresses that the host has. A look-up of its name that takes
-/// longer is left to itself.
+/// Connects to a port of TCP, by all addresses of the host. A look-up of its name that takes longer
+/// goes on alone, without result.
 [[nodiscard]] FileDescriptor connect_tcp(const std::string& host, std::uint16_t port,
                                          const StopSignal& stop, std::int64_t until_ns,
                                          std::string& problem);
 
-/// Listens on a port of 127.0.0.1; 0 stands for a free one, and `port` becomes the one that it is.
-/// Without success the descriptor is closed, and `problem` has the reason.
+/// Listens on a port of 127.0.0.1; with 0 on a free one. `port` becomes the port.
+///
+/// On failure the descriptor is closed, and `problem` has the reason.
 [[nodiscard]] FileDescriptor listen_local_tcp(std::uint16_t wanted, std::uint16_t& port,
                                               std::string& problem);
 
-/// Takes a connection that waits; a closed descriptor if none does.
+/// Accepts a waiting connection; a closed descriptor if there is none.
 [[nodiscard]] FileDescriptor accept_one(const FileDescriptor& listener) noexcept;
 
-/// Sends what goes without waiting: how many bytes; none if the other side is gone.
+/// Sends as much as goes without waiting. Returns the number of bytes; none if the other side is
+/// gone.
 [[nodiscard]] std::optional<std::size_t> send_some(const FileDescriptor& socket,
                                                    std::string_view bytes) noexcept;
 
@@ -84,13 +90,13 @@ enum class WaitFor { reading, writing };
 [[nodiscard]] bool send_all(const FileDescriptor& socket, std::string_view bytes,
                             const StopSignal& stop, std::int64_t until_ns) noexcept;
 
-/// What a read from a socket gave.
+/// The result of a read from a socket.
 struct Received {
-  std::size_t count = 0;  ///< [byte]  May be 0 although the other side is there.
+  std::size_t count = 0;  ///< [byte]  May be 0 although the connection stands.
   bool open = true;       ///< False if the other side is gone.
 };
 
-/// Reads what is there, without waiting.
+/// Reads all bytes that are there, without waiting.
 [[nodiscard]] Received receive(const FileDescriptor& socket, std::span<char> buffer) noexcept;
 
 }  // namespace firstcontact::detail

@@ -9,7 +9,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// 0 in the dead zone, then straight to 1 at full scale.
+/// Computes the fraction of full scale: 0 in the dead zone, then linear to 1.
 double share_of_scale(double count, const SpaceMouseOptions& options) {
   const double size = std::abs(count);
   if (size <= options.dead_zone) {
@@ -34,8 +34,8 @@ void SpaceMouseRates::take_motion(const std::array<std::int32_t, 6>& axes, std::
     axes_ = axes;
     sample_.changed_ns = now_ns;
   }
-  // The daemon has y up and z away from the user, D has y away and z up. Rotations are right-handed
-  // about the directions of x, y and away, as the helpers of libspnav take them.
+  // The daemon has y up and z away from the user; D has y away and z up. Rotations are right-handed
+  // about the directions of x, y and away, as in the helpers of libspnav.
   DeviceState& state = sample_.state;
   state.linear_rate = options_.max_linear_rate * Eigen::Vector3d(shares[0], shares[2], shares[1]);
   state.angular_rate = options_.max_angular_rate * Eigen::Vector3d(shares[3], shares[5], shares[4]);

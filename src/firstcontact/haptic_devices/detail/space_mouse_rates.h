@@ -1,5 +1,5 @@
 /// @file
-/// From events of spacenavd to rates of the device frame.
+/// Converts events of spacenavd to rates of the device frame.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace firstcontact::detail {
 /// The newest state, and when the deflection changed.
 struct SpaceMouseSample {
   DeviceState state;
-  std::int64_t changed_ns = 0;  ///< [ns]  Since when the counts are the same.
+  std::int64_t changed_ns = 0;  ///< [ns]  Time since which the counts are the same.
   double deflection = 0.0;      ///< [-]   The greatest count over full scale; 0 in the dead zone.
 };
 
@@ -27,10 +27,10 @@ class SpaceMouseRates {
   /// Takes an event that arrived at `now_ns`. False where it changes nothing.
   bool take(const SpacenavEvent& event, std::int64_t now_ns);
 
-  /// The connection is new: no sample yet.
+  /// Begins a new connection: no sample yet.
   void connected();
 
-  /// The daemon is gone.
+  /// Notes that the daemon is gone.
   void lost();
 
   [[nodiscard]] const SpaceMouseSample& sample() const { return sample_; }
@@ -43,7 +43,7 @@ class SpaceMouseRates {
   std::array<std::int32_t, 6> axes_{};
 };
 
-/// The state at the time of a tick: silence and drift give no rates.
+/// Computes the state at the time of a tick: silence and drift give no rates.
 [[nodiscard]] DeviceState state_at(const SpaceMouseSample& sample, std::int64_t now_ns,
                                    const SpaceMouseOptions& options) noexcept;
 

@@ -14,7 +14,7 @@
 
 namespace firstcontact::detail {
 
-/// What the daemon reported.
+/// The kinds of events that the daemon reports.
 enum class SpacenavEventType {
   motion,          ///< The deflection of the cap is new.
   press,           ///< A button goes down.
@@ -25,6 +25,7 @@ enum class SpacenavEventType {
   other,           ///< Settings and the like, which no driver needs.
 };
 
+/// An event of the daemon.
 struct SpacenavEvent {
   SpacenavEventType type = SpacenavEventType::other;
   /// Counts along x (right), y (up), z (away), then about them, as the daemon has them.
@@ -35,15 +36,15 @@ struct SpacenavEvent {
 /// Cuts the bytes of the daemon into events.
 ///
 /// A record is eight integers of 32 bits in the order of the machine: the type, then its data. The
-/// answer to the request for a protocol is one such integer alone. A record that makes no sense is
-/// counted and left out; the next one begins 32 bytes later.
+/// answer to the request for a protocol is one such integer alone. An invalid record is counted and
+/// left out; the next one begins 32 bytes later.
 ///
 /// Source: the sources of libspnav 1.0 (BSD 3-clause) describe the protocol; nothing is copied.
 class SpacenavDecoder {
  public:
   void add(std::string_view bytes) { bytes_.append(bytes); }
 
-  /// The next event, or nothing until there are more bytes.
+  /// Reads the next event; nothing until there are more bytes.
   [[nodiscard]] std::optional<SpacenavEvent> next();
 
   [[nodiscard]] std::uint64_t malformed() const { return malformed_; }
@@ -58,13 +59,14 @@ class SpacenavDecoder {
   std::string bytes_;
   std::size_t at_ = 0;
   std::uint64_t malformed_ = 0;
-  bool agreed_ = false;  // On a protocol.
+  bool agreed_ = false;  // Whether a protocol is agreed.
 };
 
-/// The request for version 1 of the protocol, in which the daemon reports devices that go.
+/// Makes the request for version 1 of the protocol, in which the daemon reports removed devices.
 [[nodiscard]] std::string spacenav_protocol_request();
 
-/// What a daemon needs that took the request for a sensitivity, as those of version 0 do: 1.
+/// Makes the answer to a daemon that took the request for one of a sensitivity, as those of version
+/// 0 do: 1.
 [[nodiscard]] std::string spacenav_sensitivity_one();
 
 }  // namespace firstcontact::detail

@@ -15,13 +15,17 @@
 
 namespace firstcontact::detail {
 
-/// Walks over the tremor in equal steps. A step multiplies phasors, which takes no sine; each step
-/// adds an error of some 1e-16 of the amplitude.
+/// A walk over the tremor in equal steps.
+///
+/// A step multiplies phasors, so it computes no sine. Each step adds an error of some 1e-16 of the
+/// amplitude.
 class TremorWalk {
  public:
+  /// Begins a walk.
+  ///
   /// @param tremor  sines along x, y, z, then about x, y, z: amplitude [m], [rad], frequency
-  ///                [rad/s] and phase [rad]
-  /// @param time    [s]  where the walk begins
+  ///         [rad/s] and phase [rad]
+  /// @param time    [s]  start of the walk
   /// @param step    [s]
   template <class Sine>
   TremorWalk(const std::array<std::array<Sine, 3>, 6>& tremor, double time, double step) noexcept {

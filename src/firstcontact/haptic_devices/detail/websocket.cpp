@@ -19,7 +19,7 @@ constexpr std::uint8_t kReserved = 0x70;
 constexpr std::uint8_t kMasked = 0x80;
 constexpr std::size_t kMostControl = 125;
 
-/// The byte of the mask for a byte of the payload.
+/// Finds the byte of the mask for a byte of the payload.
 std::uint8_t mask_byte(std::uint32_t mask, std::size_t at) {
   return static_cast<std::uint8_t>(mask >> (24 - 8 * (at % 4)));
 }

@@ -11,9 +11,10 @@
 
 namespace firstcontact::detail {
 
-/// The two ends of a connection. Clients mask what they send, servers do not.
+/// The two ends of a connection. Clients mask their frames, servers do not.
 enum class WebSocketSide { client, server };
 
+/// The kinds of frames.
 enum class WebSocketKind : std::uint8_t {
   continuation = 0x0,
   text = 0x1,
@@ -23,32 +24,35 @@ enum class WebSocketKind : std::uint8_t {
   pong = 0xa,
 };
 
+/// A message of the other side.
 struct WebSocketMessage {
   WebSocketKind kind = WebSocketKind::text;  ///< Never `continuation`.
   std::string payload;
 };
 
-/// One frame with a whole message. The sender is this side; a client passes a key of its own choice
-/// by which it masks the frame.
+/// Makes one frame with a whole message, from this side. A client passes a key of its own choice,
+/// by which the frame is masked.
 [[nodiscard]] std::string websocket_frame(WebSocketKind kind, std::string_view payload,
                                           std::optional<std::uint32_t> mask);
 
 /// Cuts the bytes of the other side into messages.
 ///
-/// A frame that breaks the rules of RFC 6455, or a message that is too long, ends the stream:
+/// A frame that breaks the rules of RFC 6455, or a message that is too long, ends the stream. Then
 /// `failure` has the reason, and nothing more comes.
 class WebSocketReader {
  public:
+  /// Makes a reader.
+  ///
   /// @param side  this end; frames come from the other one
-  /// @param most  [byte]  of a message
+  /// @param most  [byte]  greatest length of a message
   WebSocketReader(WebSocketSide side, std::size_t most) : side_(side), most_(most) {}
 
   void add(std::string_view bytes);
 
-  /// The next message, or nothing until there are more bytes.
+  /// Reads the next message; nothing until there are more bytes.
   [[nodiscard]] std::optional<WebSocketMessage> next();
 
-  /// Empty while all is well.
+  /// The reason why the stream ended; empty while it goes on.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
@@ -69,14 +73,14 @@ class WebSocketReader {
   std::size_t most_;
   std::string bytes_;
   std::size_t at_ = 0;
-  bool open_message_ = false;  // A message has begun whose last frame has not come.
+  bool open_message_ = false;  // A message has begun whose last frame has not come yet.
   WebSocketMessage message_;
   std::string failure_;
 };
 
-/// What the head of an HTTP message holds.
+/// The content of the head of an HTTP message.
 struct HttpHead {
-  std::size_t size = 0;  ///< [byte]  With the empty line at its end.
+  std::size_t size = 0;  ///< [byte]  Size with the empty line at its end.
   std::string first_line;
   std::string upgrade;     ///< In lower case.
   std::string connection;  ///< In lower case.
@@ -85,28 +89,28 @@ struct HttpHead {
   std::string version;     ///< Sec-WebSocket-Version.
   std::string extensions;  ///< Sec-WebSocket-Extensions.
   std::string origin;      ///< The page from which a browser connects.
-  std::string host;        ///< The name by which this side is called, with its port.
+  std::string host;        ///< The name of this side in the request, with its port.
 };
 
-/// Parses the head of an HTTP message, or gives nothing until its empty line has come.
+/// Parses the head of an HTTP message; nothing until its empty line has come.
 [[nodiscard]] std::optional<HttpHead> http_head(std::string_view bytes);
 
-/// Bytes from which on a head is taken for no head.
+/// [byte]  Greatest size of a head; more is not taken for one.
 inline constexpr std::size_t kMostHttpHead = 16'384;
 
-/// The answer to a key: base64 of a digest of it.
+/// Computes the answer to a key: base64 of a digest of it.
 [[nodiscard]] std::string websocket_accept(std::string_view key);
 
-/// The request of a client.
+/// Makes the request of a client.
 ///
 /// @param key  base64 of 16 random bytes
 [[nodiscard]] std::string websocket_request(const std::string& host, std::uint16_t port,
                                             const std::string& path, const std::string& key);
 
-/// Why an answer of a server is not the one to the key; empty if it is.
+/// Finds why an answer of a server does not fit the key; empty if it does.
 [[nodiscard]] std::string refused_because(const HttpHead& answer, const std::string& key);
 
-/// The answer of a server to the head of a request, or nothing if that asks for no WebSocket.
+/// Makes the answer of a server to the head of a request; nothing if that requests no WebSocket.
 [[nodiscard]] std::optional<std::string> websocket_answer(const HttpHead& request);
 
 }  // namespace firstcontact::detail
