@@ -39,7 +39,7 @@ std::vector<Impact> ImpactSearch::find(const Plan& plan) {
   return hits;
 }
 
-/// Takes the plan's motions, and the pairs that they may bring near each other.
+/// Takes over the plan's motions, and finds the pairs that they may bring near each other.
 void ImpactSearch::follow(const Plan& plan) {
   const bool is_first = movers_.empty();
   bool have_room = !is_first;
@@ -67,7 +67,7 @@ void ImpactSearch::follow(const Plan& plan) {
 }
 
 /// Finds all pairs that are near while their boxes stay in their rooms. All of them are to be
-/// asked.
+/// searched.
 void ImpactSearch::look_around() {
   std::vector<AlignedBox3d> rooms;
   for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -89,7 +89,7 @@ void ImpactSearch::look_around() {
       });
 }
 
-/// Those of members come first.
+/// Finds the mover of a body. Those of members come first.
 std::size_t ImpactSearch::mover_of(std::size_t body) {
   if (state_.model.bodies[body].kind == BodyKind::free) {
     return state_.place.at(body);
@@ -105,7 +105,7 @@ std::size_t ImpactSearch::mover_of(std::size_t body) {
   return found->second;
 }
 
-/// A hit, if they come into contact.
+/// Searches a pair. Returns its impact, if the two come into contact.
 std::optional<Impact> ImpactSearch::ask(Candidate& pair) {
   const double gap =
       pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
@@ -150,8 +150,8 @@ const SweptHull& ImpactSearch::whole_hull_of(std::size_t k) {
   return *hull;
 }
 
-/// The one of the plan before, or of what touches. A face that touches goes with its body; of
-/// edges, often one of both will do.
+/// Chooses a plane: that of the plan before, or of the touch. The plane of a touching face goes
+/// with the face's body; for edges, a plane of either body often serves.
 ImpactSearch::Plane ImpactSearch::likely_plane(const Candidate& pair) const {
   if (pair.plane) {
     return *pair.plane;
@@ -167,7 +167,7 @@ ImpactSearch::Plane ImpactSearch::likely_plane(const Candidate& pair) const {
   return {(centre(1) - centre(0)).normalized(), false};
 }
 
-/// One that tells that the hulls stay apart; it goes with either of both.
+/// Finds a plane that proves the hulls apart; it goes with either body.
 std::optional<ImpactSearch::Plane> ImpactSearch::plane_of(const SweptHull& A, const SweptHull& B,
                                                           double distance, const Plane& likely) {
   for (const bool is_of_second : {likely.is_of_second, !likely.is_of_second}) {
@@ -187,9 +187,10 @@ bool ImpactSearch::hulls_stay_apart(Candidate& pair, double distance) {
   return pair.plane || parts_stay_apart(pair, distance, {0.0, 0.5, 1.0}, kSplitsOfPlan, likely);
 }
 
-/// What bends away from a plane does so by a quarter in halves of a time.
+/// Whether hulls over parts of the time stay apart. Motion that bends away from a plane does so by
+/// a quarter in halves of a time.
 ///
-/// @param times   [-]  where the part of the plan begins, its middle, and where it ends
+/// @param times   [-]  begin, middle and end of the part of the plan
 /// @param splits  how often it is halved
 bool ImpactSearch::parts_stay_apart(const Candidate& pair, double distance,
                                     const std::array<double, 3>& times, int splits,
@@ -209,8 +210,7 @@ bool ImpactSearch::parts_stay_apart(const Candidate& pair, double distance,
   return true;
 }
 
-/// Whether no point of two bodies gets far enough to close a distance: what rests is not
-/// searched.
+/// Whether the two bodies move too little to close a distance. So resting bodies are not searched.
 bool ImpactSearch::cannot_reach(const Candidate& pair, double distance) {
   double way = 0.0;
   double size = 0.0;
@@ -220,11 +220,11 @@ bool ImpactSearch::cannot_reach(const Candidate& pair, double distance) {
     way += move.translation.norm() + reach * move.rotation_vector.norm();
     size += state_.pose_of(body).position.norm() + reach;
   }
-  constexpr double kRounding = 0x1p-44;  // Of the distance and of the way, with room.
+  constexpr double kRounding = 0x1p-44;  // Relative to distances and displacements.
   return way + kRounding * size < distance;
 }
 
-/// The contact that was just found, as a constraint on the span.
+/// Makes the impact of the contact that was just found, as a constraint on the span.
 Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   Impact hit{.bodies = bodies_of(pair), .t = answer_.t};
   ProblemBodies bodies;
@@ -234,7 +234,7 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
                centre_of_mass(state_.model.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
-  bool passes = true;  // Over a seam, however near it is.
+  bool passes = true;  // Over a seam, at any distance from it.
   seam_time_ = hit.t;
   if (!seams_) {
     seams_.emplace(state_, workspace_,
@@ -245,7 +245,7 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
     const bool is_seam = seams_->level(touch);
     PredictedContact ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
-    // From the gap of the start, were it straight to there.
+    // The gap at the start of a straight motion to there.
     const double gap = touch.gap - hit.t * span_ * u_n;
     ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap, gap) / span_);
     closing = std::max(closing, -u_n);
@@ -257,7 +257,7 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
   return hit;
 }
 
-/// Where a body is in the plan.
+/// Computes the pose of a body in the plan.
 Pose ImpactSearch::pose_at(std::size_t body, double t) {
   const Move move = state_.model.bodies[body].kind == BodyKind::free
                         ? movers_[state_.place.at(body)].move

@@ -26,17 +26,19 @@ struct IslandState;
 /// A pair that the plan brings into contact.
 struct Impact {
   BodyPair bodies;
-  double t = 0.0;  ///< [-]  Of the span.
+  double t = 0.0;  ///< [-]  Time in the span.
   bool is_slight = false;
   std::vector<PredictedContact> ahead = {};
 };
 
 /// The search for first contacts in the motions of plans.
 ///
-/// In plans after the first one, only those pairs are searched of which a body moves otherwise than
-/// in the plan before.
+/// After the first plan, only those pairs are searched of which a body moves otherwise than in the
+/// plan before.
 class ImpactSearch {
  public:
+  /// Prepares a search.
+  ///
   /// @param span  [s]  of the plans
   ImpactSearch(IslandState& state, double span, Workspace& workspace)
       : state_(state), span_(span), workspace_(workspace) {}
@@ -44,7 +46,7 @@ class ImpactSearch {
   /// Searches all pairs that the plan may bring near each other.
   [[nodiscard]] std::vector<Impact> find(const Plan& plan);
 
-  /// [m]  No pair comes closer in the plan that was asked last, until its first hit.
+  /// [m]  Proven bound of the distance of all pairs in the last plan, until its first impact.
   [[nodiscard]] double clearance() const { return clearance_; }
 
  private:
@@ -52,24 +54,24 @@ class ImpactSearch {
   struct Mover {
     std::size_t body;
     Move move = {};
-    Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
+    Eigen::AlignedBox3d box = {};   // [m]  Box around the motion.
     Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
-    bool is_changed = true;         // It moves otherwise than in the plan before.
-    std::optional<SweptHull> hull = {};  // Where needed.
+    bool is_changed = true;         // Whether it moves otherwise than in the plan before.
+    std::optional<SweptHull> hull = {};  // Computed where needed.
   };
-  /// Between two bodies.
+  /// A plane between two bodies.
   struct Plane {
-    Eigen::Vector3d n;  // [-]  From the first to the second, when the plan begins.
-    bool is_of_second;  // It moves with the second body.
+    Eigen::Vector3d n;  // [-]  From the first body to the second, when the plan begins.
+    bool is_of_second;  // Whether it moves with the second body.
   };
   /// Two bodies that may come near each other.
   struct Candidate {
     std::array<std::size_t, 2> movers;
     double margin;             // [m]
     const Manifold* manifold;  // Null beyond the band.
-    bool is_near = false;      // The boxes of the plan are.
+    bool is_near = false;      // Whether the boxes of the plan are near each other.
     std::optional<Impact> hit = {};
-    std::optional<Plane> plane = {};  // That kept them apart in the plan before.
+    std::optional<Plane> plane = {};  // The plane that kept them apart in the plan before.
   };
 
   void follow(const Plan& plan);
@@ -100,10 +102,10 @@ class ImpactSearch {
   double span_;
   Workspace& workspace_;
   std::vector<Mover> movers_ = {};  // The members, then bodies around the island.
-  std::unordered_map<std::size_t, std::size_t> around_ = {};  // Where these are among the movers.
+  std::unordered_map<std::size_t, std::size_t> around_ = {};  // Indices of these among the movers.
   std::vector<Candidate> candidates_ = {};
-  std::optional<SeamFinder> seams_ = {};  // From the first hit on,
-  double seam_time_ = 0.0;                // [-]  at this time of the plan.
+  std::optional<SeamFinder> seams_ = {};  // Made at the first impact,
+  double seam_time_ = 0.0;                // [-]  for this time of the plan.
   FirstContactResult answer_;
   double clearance_ = 0.0;
 };

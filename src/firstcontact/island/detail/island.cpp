@@ -81,9 +81,9 @@ class Island {
   }
 
  private:
-  /// [s]  Of the next plan. Plans that turning makes short are of equal length: in a sliver that is
-  /// left, impulses would say nothing about the next step. None is so short that rounding of its
-  /// length would be speeds of motors.
+  /// [s]  Finds the span of the next plan. Plans that turns make short have equal lengths: the
+  /// impulses of a short rest would be no guesses for the next step. The shortest span is so long
+  /// that its rounding is no speed of motors.
   [[nodiscard]] double span() {
     const double shortest = kLeastShareOfFast * state_.start.h;
     const double of_fast =
@@ -94,7 +94,8 @@ class Island {
     return std::min(span_, rest - of_motion < shortest ? rest : of_motion);
   }
 
-  /// [s]  For which no body with ties turns too far: impulses act where ties are halfway.
+  /// [s]  Finds the span in which no tied body turns too far: impulses act at the places of ties
+  /// halfway.
   [[nodiscard]] double tied_span() const {
     double fastest = 0.0;  // [rad/s]
     for (std::size_t k = 0; k < state_.size() && !state_.ties.empty(); ++k) {
@@ -106,8 +107,8 @@ class Island {
                          : std::numeric_limits<double>::infinity();
   }
 
-  /// [s]  In which bodies that touch turn no farther than contacts can follow. In heaps they do not
-  /// follow.
+  /// [s]  Finds the span in which touching bodies turn no farther than contacts can follow. In
+  /// heaps contacts do not follow.
   [[nodiscard]] double turning_span() {
     double longest = std::numeric_limits<double>::infinity();
     if (is_heap(state_, state_.touches())) {
@@ -127,7 +128,7 @@ class Island {
     return longest;
   }
 
-  /// [s]  In which a body that touches turns no farther than gyroscopic moments allow.
+  /// [s]  Finds the span in which a touching body turns no farther than gyroscopic moments permit.
   [[nodiscard]] double spinning_span(std::size_t body) const {
     const SimBody& described = state_.model.bodies[body];
     if (described.kind != BodyKind::free || described.link_body || is_locked(described.inertia) ||
@@ -138,10 +139,10 @@ class Island {
     return std::max(kMostTurnInContact / turning, kLeastShareOfPlan * state_.start.h);
   }
 
-  /// [s]  In which a contact on a rim stays near its place on it, and one on an ellipsoid has
-  /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count. Over
-  /// the flat side of an ellipsoid it runs fast for a short time. Few bodies have plans of a
-  /// hundredth of a step there: with many of them they would take too long.
+  /// [s]  Finds the span in which a contact on a rim stays near its place there. A contact on an
+  /// ellipsoid almost keeps its arm in it. On a rim a contact that runs too fast for any plan does
+  /// not count. Over the flat side of an ellipsoid it runs fast for a short time. Islands of few
+  /// bodies have plans of a hundredth of a step there; with many bodies they would take too long.
   [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
     double longest = std::numeric_limits<double>::infinity();
     if (!touch.round[0].is_curved() && !touch.round[1].is_curved()) {
@@ -160,15 +161,15 @@ class Island {
     return std::min(longest, std::max(on_ellipsoid, least));
   }
 
-  /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
-  /// doubles could not prove it. Or plans go on to break what contacts ask.
+  /// Whether the island is jammed. Either impacts go on to squeeze a pair: each leaves less of its
+  /// distance, until doubles could not prove it. Or plans go on to break their contacts.
   [[nodiscard]] bool is_jammed() const {
     const std::size_t most = scripts_.try_again() ? kMostCrushedAgain : kMostCrushed;
     return squeezed_ >= kMostSqueezed || crushed_ >= most;
   }
 
-  /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
-  /// the angular acceleration a of gyroscopic moments.
+  /// [s]  Finds the span in which bodies that tumble stay near their chords: a t^2 / 8 away at
+  /// most, with the angular acceleration a of gyroscopic moments.
   [[nodiscard]] double tumbling_span() const {
     double greatest = 0.0;  // [rad/s^2]
     for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -181,9 +182,9 @@ class Island {
                           : std::numeric_limits<double>::infinity();
   }
 
-  /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
-  /// than the distance of rest, to half of what is left with each impact, in less and less time.
-  /// Then plans are as short as it took, so that what pushes apart gets there within them.
+  /// Chooses the longest span. A constraint is linear, but the path of a turning point is not. On a
+  /// fast body it goes nearer than the rest gap, and halves the gap with each impact, in less and
+  /// less time. Then plans are as short as it took, so that pushes act within them.
   void choose_span(double t) {
     if (t < 1.0) {
       span_ = state_.is_too_near()
@@ -194,8 +195,8 @@ class Island {
     }
   }
 
-  /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
-  /// plan. Returns how far, in parts of its span; nothing if it was stopped.
+  /// Moves all bodies to the first contact that is no mere constraint, or to the end of the plan.
+  /// Returns the fraction of the span; nothing if it was stopped.
   std::optional<double> advance() {
     IslandPlanner planner(state_, planned_);
     ImpactSearch search(state_, planned_, workspace_);
@@ -245,8 +246,8 @@ class Island {
     return std::nullopt;
   }
 
-  /// Whether another plan would be stopped by the same hits: it has them as constraints, and its
-  /// velocities do not keep these. A script that tries again needs no more of a sign.
+  /// Whether another plan would be stopped by the same impacts: it has them as constraints, and its
+  /// velocities violate these. For a script that tries again, an unsolved plan alone shows it.
   [[nodiscard]] bool is_in_vain(const IslandPlanner& planner, const Plan& plan,
                                 const std::vector<Impact>& hits) const {
     const auto is_known = [&](const Impact& hit) {
@@ -256,8 +257,8 @@ class Island {
            (!plan.keeps_contacts() && std::ranges::all_of(hits, is_known));
   }
 
-  /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
-  /// little to be told from now.
+  /// Executes the plan until t, and finds the manifolds there. Bodies stay where t is too small to
+  /// change the time.
   void move_to(const Plan& plan, std::vector<ManifoldPoint> touches, double t, double clearance) {
     const bool is_last = planned_ >= state_.start.h - state_.reached;
     const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned_;
@@ -290,6 +291,8 @@ class Island {
     take(std::move(touches), before);
   }
 
+  /// Moves the bodies to t of the plan.
+  ///
   /// @param to  [s]  since the step began
   void move_bodies(const Plan& plan, const std::vector<ManifoldPoint>& touches, double t,
                    double to) {
@@ -298,7 +301,7 @@ class Island {
     state_.robots.move_to(plan.robots, t, planned_, to);
     for (std::size_t k = 0; k < state_.size(); ++k) {
       state_.states[k] = state_ahead(state_, plan, k, t);
-      if (state_.member(k).link_body) {  // Its pose is on a chord, its velocity that of its robot.
+      if (state_.member(k).link_body) {  // Its pose is on a chord, its velocity is its robot's.
         const ContactBody body = state_.robots.body(k);
         state_.states[k].v_WC = body.v;
         state_.states[k].w_WB = body.w;
@@ -313,10 +316,10 @@ class Island {
     }
   }
 
-  /// Makes the touches of a plan those of the step, with what acted before. What acted on pairs
-  /// that parted is an impact.
+  /// Makes the touches of a plan those of the step, with the earlier impulses. Impulses on pairs
+  /// that parted become impacts.
   ///
-  /// @param before  [s]  when the plan began
+  /// @param before  [s]  begin of the plan
   void take(std::vector<ManifoldPoint> touches, double before) {
     add_earlier_impulses(track_.touches, touches);
     for (const ManifoldPoint& parted : track_.touches) {
@@ -325,7 +328,7 @@ class Island {
     track_.touches = std::move(touches);
   }
 
-  /// What is left of the velocities at the end of the step is no motion.
+  /// Sets the small velocities that are left at the end of the step to 0.
   void come_to_rest() {
     track_.rests = Rest::begins;
     for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -336,7 +339,7 @@ class Island {
     }
   }
 
-  /// Whether anything touches that approaches fast enough to bounce.
+  /// Whether any touch closes fast enough to bounce.
   [[nodiscard]] bool has_bounce() {
     ProblemBodies bodies = state_.problem_bodies();
     for (const auto& [pair, manifold] : state_.manifolds) {
@@ -352,7 +355,7 @@ class Island {
     return false;
   }
 
-  /// Changes the velocities of what touches now.
+  /// Projects the impact of the present touches.
   void impact() {
     ProblemBodies bodies = state_.problem_bodies();
     ContactProblem problem;
@@ -403,15 +406,15 @@ class Island {
   IslandState state_;
   const std::vector<ManifoldPoint>& guesses_;
   const std::stop_token& stop_;
-  std::vector<ManifoldPoint> acted_ =
-      {};  // In the last plan, sorted, with the impulses of a whole step.
+  // Touches of the last plan, sorted, with the impulses of a whole step.
+  std::vector<ManifoldPoint> acted_ = {};
   Workspace& workspace_;
   IslandTrack track_;
-  double span_;               // [s]  Longest of a plan, for now.
-  double planned_ = 0.0;      // [s]  Of the plan.
-  std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
-  std::size_t crushed_ = 0;   // Impacts of plans that contacts left no solution.
-  bool is_torn_ = false;      // No plan holds the ties.
+  double span_;               // [s]  Longest span of a plan, for now.
+  double planned_ = 0.0;      // [s]  Span of the plan.
+  std::size_t squeezed_ = 0;  // Number of impacts that left a pair squeezed.
+  std::size_t crushed_ = 0;   // Number of plans with impacts whose contacts have no solution.
+  bool is_torn_ = false;      // Whether no plan holds the ties.
   MetScripts scripts_ = {};
 };
 

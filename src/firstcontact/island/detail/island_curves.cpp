@@ -45,18 +45,18 @@ ContactPoint along_way(const ActingContact& acting) {
   return contact;
 }
 
-/// Whether a contact is held on a curved surface: where it is when its bodies have moved is known.
+/// Whether a contact is held on a curved surface, so that its place is known after its bodies
+/// moved.
 bool IslandPlanner::is_on_curve(std::size_t k) const {
   return acts(k) && acting_[k].is_round && acting_[k].is_held;
 }
 
-/// [m]  Between the surfaces, the pair's margin included.
+/// [m]  The distance of the surfaces, the pair's margin included.
 double IslandPlanner::distance_of(const ManifoldPoint& touch) const {
   return touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
 }
 
-/// The bodies of a contact with the velocities that lead through the plan: the mean of those at its
-/// begin and these at its end.
+/// The bodies of a contact with the mean of the velocities at the begin and the end of the plan.
 std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
                                                      const std::vector<ContactBody>& at_end) const {
   const ManifoldPoint& touch = touches_[k];
@@ -69,8 +69,8 @@ std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
   return sides;
 }
 
-/// Lets contacts on curved surfaces turn with the velocities of the last solution in place of those
-/// of now. Returns whether that changes any of them.
+/// Turns contacts on curved surfaces by the velocities of the last solution in place of those of
+/// now. Returns whether that changes any of them.
 bool IslandPlanner::follow_curves() {
   const double slack = kSlackOfMean * state_.model.distances.least / span_;
   const std::vector<ContactBody>& at_end = last_->velocities.bodies;
@@ -105,7 +105,7 @@ bool IslandPlanner::follow_curves() {
 }
 
 /// Whether a touch ahead is on the surface of a contact that follows its curve. Then the polygon of
-/// a circle stands out there, and a displacement leads away from it.
+/// a circle stands out there, and a displacement keeps away from it.
 bool IslandPlanner::lifts(const PredictedContact& ahead) {
   const auto is_of_one_surface = [&](std::size_t k) {
     return touches_[k].bodies == ahead.touch.bodies && is_on_curve(k) &&
@@ -129,9 +129,9 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
   return true;
 }
 
-/// [m]  A displacement keeps a contact on its curve if it is no longer: the way of the contact
-/// times the turn of its normal, and a contact distance. So it may be longer by the sagittas of the
-/// arcs of both points, where flights have what contacts do to spins.
+/// [m]  Bounds a displacement that keeps a contact on its curve: the path of the contact times the
+/// turn of its normal, and a contact distance. The sagittas of the arcs of both points are added,
+/// as flights have the effect of contacts on spins.
 double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
                                       const std::array<ContactSide, 2>& sides) const {
   const ContactPoint& now = acting_[k].now;
@@ -147,15 +147,15 @@ double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
   return state_.model.distances.least + way * turn + sagittas;
 }
 
-/// [m]  The same for velocities that bodies have at the end.
+/// [m]  Computes this bound for velocities of bodies at the end.
 double IslandPlanner::most_from_curve(std::size_t k, const std::vector<ContactBody>& at_end) const {
   const std::array<ContactSide, 2> sides = mean_sides(k, at_end);
   return most_from_curve(
       moved_contact(touches_[k], acting_[k].now, distance_of(touches_[k]), sides, span_), k, sides);
 }
 
-/// Adds displacements that keep pressed contacts on their curves: the plan's motion is along a
-/// line, and the mean of velocities only nearly along the chord.
+/// Adds displacements that keep pressed contacts on their curves. The plan's motion is along a
+/// line, and the mean of velocities is only almost along the chord.
 void IslandPlanner::keep_on_curves(Plan& plan) const {
   if (by_end_) {
     return;
@@ -177,7 +177,7 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
       most = std::max(most, off.most);
       kept.least_normal_velocity = off.missing;
       problem.contacts.push_back(kept);
-      // And not more than that.
+      // The gap must not grow either.
       kept.frame.topRows<2>() *= -1.0;
       kept.least_normal_velocity *= -1.0;
     }
@@ -195,8 +195,8 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
   displace(kept, plan);
 }
 
-/// How much farther apart a contact has to be after the plan. Nothing where the plan leads it too
-/// far from its curve to tell.
+/// Computes the missing distance of a contact after the plan. Nothing where the plan takes it too
+/// far from its curve.
 IslandPlanner::OffCurve IslandPlanner::off_curve(std::size_t k, const Plan& plan) const {
   const ManifoldPoint& touch = touches_[k];
   std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};

@@ -38,7 +38,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
     if (body.link_body) {
       flight.rotation_vectors.emplace_back(Vector3d::Zero());
       flight.torques.emplace_back(Vector3d::Zero());
-      continue;  // Flies with its robot.
+      continue;  // It flies with its robot.
     }
     auto [force, torque] = mean_force(body, state_.start.time + state_.reached, span_);
     force += body.inertia.mass * state_.model.gravity;
@@ -69,10 +69,10 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   for (const auto& [pair, manifold] : state_.manifolds) {
     const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {
-      // What will bounce has to arrive first.
+      // A touch that will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        // In a heap each touch stops where it is: solutions there are too rough for the nearest.
+        // In a heap each touch stops where it is, as solutions are too rough for the nearest gap.
         const double way =
             state_.model.distances.way_to_rest(touch.gap, by_end_ ? touch.gap : lowest);
         acting_.push_back(acting(touch, -way / span_));
@@ -89,7 +89,8 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
 }
 
-/// Those of the problem, with their free velocities. Others that contacts ahead bring come last.
+/// Sets the bodies of the problem, with their free velocities. Others, of predicted contacts, come
+/// last.
 void IslandPlanner::set_bodies() {
   for (std::size_t b = problem_.bodies.size(); b < bodies_.bodies().size(); ++b) {
     problem_.bodies.push_back(b < state_.size() ? flight_.at_end[b] : bodies_.bodies()[b]);
@@ -108,13 +109,13 @@ ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side)
           moving.w};
 }
 
-/// Its guess is the impulse of the touch, of a whole step.
+/// Makes an acting contact. Its guess is the impulse of the touch, of a whole step.
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
   std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
   made.now = state_.contact(touch, bodies_, least);
   made.is_round = follows_curve(made.now, sides, span_) || turns_on_corner(touch, sides, span_);
-  if (!made.is_round) {  // It goes with what it touches of the polygon.
+  if (!made.is_round) {  // It goes with its features of the polygon.
     sides[0].round = {};
     sides[1].round = {};
   }
@@ -134,8 +135,8 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   return made;
 }
 
-/// [m/s]  How much the velocity at which a contact sticks differs where the plan ends: belts turn
-/// with their bodies, and carry the contact to where these move otherwise.
+/// [m/s]  Computes the change of the velocity at which a contact sticks, to the end of the plan.
+/// Belts turn with their bodies, and carry the contact to places that move otherwise.
 ///
 /// @param frame  of the contact there
 Eigen::Vector2d IslandPlanner::change_of_belt(const ManifoldPoint& touch, const ContactPoint& now,
@@ -149,7 +150,7 @@ Eigen::Vector2d IslandPlanner::change_of_belt(const ManifoldPoint& touch, const 
       const Vector3d& w = sides[s].w;
       const Vector3d now_running = sides[s].R_WB * belt;
       const Vector3d carried = span_ * (turn(0.5 * span_ * w) * now_running);
-      // Where the contact goes over a face, its way is that of what it meets.
+      // Where the contact goes over a face, its path is that of the other body.
       const Vector3d by_way = goes_over(touch, sides, s) ? Vector3d::Zero() : w.cross(carried);
       const Vector3d running = turn(span_ * w) * now_running + by_way;
       there += (s == 0 ? 1.0 : -1.0) * (frame * running).tail<2>();
@@ -165,9 +166,9 @@ void IslandPlanner::append(const ManifoldPoint& touch, const ContactPoint& conta
   problem_.contacts.push_back(contact);
 }
 
-/// Whether a contact is about the same place of one of the bodies, seen from there.
+/// Whether a contact is at about the same place of one of the bodies, in that body's frame.
 bool IslandPlanner::is_at(const PredictedContact& ahead, std::size_t k) const {
-  // Features and normals tell most apart, and cost least.
+  // Features and normals distinguish most contacts, and are cheap to compare.
   const ManifoldPoint& touch = touches_[k];
   if (!same_features(touch, ahead.touch) ||
       !(touch.normal.dot(ahead.touch.normal) >= kReplacedNormal)) {
@@ -179,7 +180,7 @@ bool IslandPlanner::is_at(const PredictedContact& ahead, std::size_t k) const {
   return apart <= kReplacedWithin * smaller_reach(state_.model, ahead.touch.bodies);
 }
 
-/// The contact whose place a touch ahead takes.
+/// Finds the contact that a predicted contact replaces.
 std::optional<std::size_t> IslandPlanner::find(const PredictedContact& ahead) const {
   const BodyPair& pair = ahead.touch.bodies;
   const auto end_touching = touches_.begin() + static_cast<std::ptrdiff_t>(first_ahead_);
@@ -232,7 +233,7 @@ void IslandPlanner::add(const PredictedContact& ahead) {
   changed_.push_back(*k);
 }
 
-/// All of it, or what changed since the last plan.
+/// Solves all of the problem, or only the changes since the last plan.
 void IslandPlanner::solve() {
   std::optional<PlanSolution> again;
   if (last_) {
@@ -258,7 +259,7 @@ void IslandPlanner::solve() {
   }
 }
 
-/// Finds the impulses: where the rules of the plan and its curves agree with them.
+/// Finds the impulses: those that agree with the rules of the plan and its curves.
 ///
 /// @returns whether those of ties were found
 bool IslandPlanner::find_solution() {
@@ -290,7 +291,7 @@ bool IslandPlanner::find_solution() {
   return finds_ties;
 }
 
-/// The motions that the impulses give to free bodies; those of robots follow.
+/// Makes the motions of free bodies by the impulses; those of robots follow.
 Plan IslandPlanner::plan_of_bodies(const std::vector<bool>& by_end) {
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies,
@@ -341,13 +342,13 @@ std::vector<ManifoldPoint> IslandPlanner::touches() const {
   return touches;
 }
 
-/// [-]  How much of its links' drift a plan makes up for. All of it in a short plan would be a
-/// speed that contacts answer: 30 um in a nanosecond.
+/// [-]  The fraction of its links' drift that a plan corrects. All of it in a short plan would be a
+/// speed to which contacts respond: 30 um in a nanosecond.
 double IslandPlanner::share_of_drift() const {
   return std::min(1.0, span_ / (kSpanOfDrift * state_.start.h));
 }
 
-/// [m]  What the drift of links adds to the way along a contact's normal.
+/// [m]  The path along a contact's normal that the drift of links adds.
 double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
   double way = 0.0;
   for (int side = 0; side < 2; ++side) {
@@ -363,8 +364,7 @@ double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& cont
 }
 
 /// Whether the mean of the velocities at both ends keeps every constraint. It is exact under
-/// constant forces. A constraint that only begins to act breaks it, and one does somewhere in
-/// nearly any heap.
+/// constant forces. A constraint that only begins to act breaks it, as happens in almost any heap.
 bool IslandPlanner::mean_is_allowed() const {
   const std::vector<ContactBody>& before = bodies_.bodies();
   std::vector<ContactBody> mean = last_->velocities.bodies;
@@ -400,18 +400,18 @@ bool IslandPlanner::acts(std::size_t k) const {
   return k < first_ahead_ && !acting_[k].is_replaced;
 }
 
-/// [m/s]  How much slower than its least the mean of a normal velocity may be.
+/// [m/s]  The most by which the mean of a normal velocity may be below its least one.
 double IslandPlanner::slack_of_mean() const {
   return 2.0 * projection_options(state_, problem_).tolerance +
          kSlackOfMean * state_.model.distances.least / span_;
 }
 
-/// [m/s]  The least normal velocity that a contact asks of the mean.
+/// [m/s]  The least mean normal velocity of a contact.
 double IslandPlanner::least_of_mean(std::size_t k) const {
   return acts(k) ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
 }
 
-/// Whether a pair that slides now sticks from the first half of the plan on: the mean would let it
+/// Whether a pair that slides now sticks from the first half of the plan on. The mean would let it
 /// slide for half of the plan.
 ///
 /// @param first,end  the contacts of the pair
@@ -438,7 +438,7 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
   return slides && friction.norm() < 0.5 * most;
 }
 
-/// Whether any contact changes with the way of its bodies.
+/// Whether any contact changes with the motion of its bodies.
 bool IslandPlanner::any_turns() const {
   const double tolerance = projection_options(state_, problem_).tolerance;
   return std::ranges::any_of(acting_, [&](const ActingContact& acting) {
@@ -446,8 +446,8 @@ bool IslandPlanner::any_turns() const {
   });
 }
 
-/// The velocities that lead from the begin of a plan to its end. Where contacts turn, those at the
-/// end point along their circles there, and others lead along the chords.
+/// Finds the velocities from the begin of a plan to its end. Where contacts turn, velocities at the
+/// end point along their circles there, and these point along the chords.
 ContactSolution IslandPlanner::along_chords() const {
   ContactProblem problem = problem_;
   for (std::size_t k = 0; k < first_ahead_; ++k) {
@@ -460,7 +460,7 @@ ContactSolution IslandPlanner::along_chords() const {
   return project_way(state_, problem, span_).velocities;
 }
 
-/// Of the problem's bodies, those that the velocities at the end lead.
+/// Finds the bodies of the problem that move by the velocities at the end.
 std::vector<bool> IslandPlanner::led_by_end() const {
   std::vector<bool> by_end(bodies_.bodies().size(), false);
   if (by_end_) {
@@ -476,11 +476,12 @@ std::vector<bool> IslandPlanner::led_by_end() const {
   return by_end;
 }
 
-/// How a member moves that has a velocity where the plan ends. The move of a link body is one of
-/// its robot.
+/// Makes the motion of a member from its velocity at the end. The motion of a link body is its
+/// robot's.
 ///
-/// @param by_end   whether that velocity leads it, or the mean of those at both ends
-/// @param turning  [rad/s]  of what carries it: halfway the velocity has turned by half of it less
+/// @param by_end   whether it moves by that velocity, or by the mean of those at both ends
+/// @param turning  [rad/s]  of its carrier: halfway the velocity has turned by half of the turn
+///         less
 Move IslandPlanner::move_of(std::size_t k, bool by_end, const Vector3d& turning,
                             const ContactBody& after) const {
   const ContactBody& before = bodies_.bodies()[k];

@@ -1,5 +1,6 @@
 /// @file
-/// How an island is to move over a span of time: Gauss' principle on the velocities at its end.
+/// Plans the motion of an island over a span of time: Gauss' principle on the velocities at its
+/// end.
 
 #pragma once
 
@@ -25,69 +26,71 @@ namespace firstcontact::detail {
 
 struct IslandState;
 
-/// A touch of the motion ahead, and how it would be reached.
+/// A predicted contact: a touch of the motion ahead, and the constraint that it gives.
 struct PredictedContact {
   ManifoldPoint touch;
-  ContactPoint contact;  ///< With the arms of its time.
+  ContactPoint contact;  ///< With the arms at its time.
   double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
 };
 
-/// A contact that acts when a plan begins, as the plan's two rules want it.
+/// A contact that acts when a plan begins, for both rules of the plan.
 struct ActingContact {
   ContactPoint now = {};
   MovedContact halfway = {};
-  /// [m/s]  How much the geometry changes a velocity from halfway to the end: of those of now, or
-  /// on a curve of those that the last solution has at the end.
+  /// [m/s]  Change of a velocity by the geometry from halfway to the end. The velocity is that of
+  /// now, or on a curve that of the last solution at the end.
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
-  /// [m/s]  Where the plan ends, of the velocity at which it sticks.
+  /// [m/s]  Change of the velocity at which it sticks, to the end of the plan.
   Eigen::Vector2d change_of_belt = Eigen::Vector2d::Zero();
-  bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
-  double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
-  bool is_replaced = false;  ///< By a predicted contact of the same features.
-  bool is_round = false;     ///< On a curved surface that it follows in the plan.
-  int lifts = 0;             ///< [tolerances]  By so many it has to be farther apart.
+  bool is_held = false;  ///< Whether it presses, or its bodies rest there: it goes on with them.
+  double least = 0.0;    ///< [m/s]  Least mean normal velocity over the plan.
+  bool is_replaced = false;  ///< Whether a predicted contact of the same features replaces it.
+  bool is_round = false;     ///< Whether it is on a curved surface that it follows in the plan.
+  int lifts = 0;             ///< [tolerances]  Extra distance that it has to keep.
 };
 
-/// The contact for a plan in which the mean of the velocities at both ends leads (the midpoint
-/// rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006, II.1.1):
-/// impulses act halfway. A held contact has J_end v_end = 0 at the end. Then the mean of the
-/// velocities goes along the surface halfway. The solution finds J_half v_end; the rest of
-/// J_end v_end is `change`.
+/// Makes the contact for a plan that moves bodies by the mean of the velocities at both ends (the
+/// midpoint rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006,
+/// II.1.1).
+///
+/// Impulses act halfway. A held contact has J_end v_end = 0 at the end. Then the mean of the
+/// velocities goes along the surface halfway. The solution finds J_half v_end; the rest of J_end
+/// v_end is `change`.
 [[nodiscard]] ContactPoint by_mean(const ActingContact& acting);
 
-/// The contact for the way of a plan that one velocity leads from its begin to its end.
+/// Makes the contact for a plan that moves bodies by one velocity from its begin to its end.
 [[nodiscard]] ContactPoint along_way(const ActingContact& acting);
 
 /// The motions of the bodies over the plan's span: the rest of the step, or less.
 struct Plan {
-  std::vector<Move> moves = {};  ///< Of each member.
+  std::vector<Move> moves = {};  ///< The motion of each member.
   /// The velocities of each member at the end.
   ///
-  /// Angular ones have the coordinates that they have in the body's axes at the end, but in its
-  /// axes of now. So contacts do to its energy now what they do to it at the end.
+  /// Angular velocities have the coordinates of the body's axes at the end, but in its axes of now.
+  /// So contacts change its energy now as they do at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
   std::vector<TieTrackPiece> ties = {};  ///< Impulses over the plan.
   double residual = 0.0;                 ///< [m/s]
-  bool is_limited = false;               ///< Velocities are shorter than contacts would have them.
-  bool is_solved = true;                 ///< Contacts have a solution, and it was found.
-  /// Forces of ties were found, and keep the energy that they do not take; those of a shorter plan
-  /// may do.
+  bool is_limited = false;               ///< Whether velocities are shorter than contacts require.
+  bool is_solved = true;                 ///< Whether contacts have a solution, and it was found.
+  /// Whether forces of ties were found that keep the energy which they do not take. A shorter plan
+  /// may have such forces.
   bool finds_ties = true;
-  bool tears_ties = false;  ///< Joints are apart where it ends, or it leads nowhere.
+  bool tears_ties = false;  ///< Whether joints are apart where it ends, or a motion is not finite.
 
   [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };
 
-/// How a member that is no link body moves, a share of a plan ahead.
+/// Computes the state of a member that is no link body, a share of a plan ahead.
 [[nodiscard]] RigidState state_ahead(const IslandState& state, const Plan& plan, std::size_t member,
                                      double share);
 
-/// Makes plans from where an island is now, each with more or tighter constraints than the one
-/// before.
+/// Makes plans for an island from its present state, each with more or tighter constraints than the
+/// one before.
 class IslandPlanner {
  public:
-  /// Starts with what touches now, and the impulses of a whole step that it has.
+  /// Starts with the present touches, and their impulses for a whole step.
   ///
   /// @param span  [s]
   IslandPlanner(IslandState& state, double span);
@@ -95,44 +98,44 @@ class IslandPlanner {
   /// Starts from the impulses of the plan before.
   [[nodiscard]] Plan plan();
 
-  /// The pairs that the last plan holds apart, with its impulses.
+  /// The pairs that the last plan holds apart, with their impulses.
   [[nodiscard]] std::vector<ManifoldPoint> touches() const;
 
-  /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
-  /// takes its place: between two that say nearly the same impulses would only slowly go over.
+  /// Adds a predicted contact as a constraint. It replaces one of the same features, as impulses
+  /// would move over only slowly between two almost equal constraints.
   void add(const PredictedContact& ahead);
 
-  /// Whether the last plan has the touch as one of the motion ahead: adding it changes little.
+  /// Whether the last plan has a predicted contact that is almost equal: adding it changes little.
   [[nodiscard]] bool has(const PredictedContact& ahead) const;
 
  private:
-  /// Velocities without contacts, as those of Plan, and how far they lead.
+  /// The velocities without contacts, as those of Plan, and the motions that they give.
   struct FreeFlight {
     std::vector<ContactBody> at_end;
     std::vector<Eigen::Vector3d> rotation_vectors;
-    std::vector<Eigen::Vector3d> torques;  ///< [N m]  Constant, without contacts.
+    std::vector<Eigen::Vector3d> torques;  ///< [N m]  Constant torques, without contacts.
   };
 
-  /// Bodies that spin in contact: their flights have the angular impulses of contacts. Angular
-  /// velocities of the problem are those of the world, at the end of the plan.
+  /// Bodies that spin in contact: their flights have the angular impulses of contacts. Their
+  /// angular velocities in the problem are in world axes, at the end of the plan.
   struct Spins {
-    /// [N m s]  Of contacts in the flight of each member; nothing: it is none of these bodies.
+    /// [N m s]  Impulses of contacts in the flight of each member; none for other bodies.
     std::vector<std::optional<Eigen::Vector3d>> impulses;
-    double energy = 0.0;  // [J]  Of the bodies, where they fly without contacts.
+    double energy = 0.0;  // [J]  Energy of the bodies, where they fly without contacts.
   };
 
   /// Robots whose flights have the impulses of contacts.
   struct LoadsOfContacts {
     std::vector<LinkImpulse> on_links;
-    std::vector<bool> acts;               // Of each robot.
-    double energy = 0.0;                  // [J]  Of robots, where they fly without contacts.
-    std::vector<OuterImpulse> in_flight;  // Of each robot, what its flight has.
+    std::vector<bool> acts;  // For each robot.
+    double energy = 0.0;     // [J]  Energy of the robots, where they fly without contacts.
+    std::vector<OuterImpulse> in_flight;  // For each robot the impulse in its flight.
   };
 
-  /// How far a plan leads a contact from its curve.
+  /// The distance of a contact from its curve after a plan.
   struct OffCurve {
-    double missing = 0.0;  // [m]  So much farther apart it has to be.
-    double most = 0.0;     // [m]  A displacement for it is no longer; 0: there is none.
+    double missing = 0.0;  // [m]  Distance by which it has to be farther apart.
+    double most = 0.0;     // [m]  Greatest length of a displacement for it; 0 for none.
   };
 
   [[nodiscard]] bool find_solution();
@@ -226,27 +229,27 @@ class IslandPlanner {
   ProblemBodies bodies_;
   PlanTies ties_;
   FreeFlight flight_;
-  ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
-  std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
-  std::vector<ActingContact> acting_;           // Those of touches of now.
-  std::optional<Spins> spins_ = {};             // Where bodies spin in contact.
-  std::optional<LoadsOfContacts> loads_ = {};   // Where contacts act in flights of robots.
-  bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
-  bool laid_by_end_ = false;                    // They did when the rows of ties were made.
-  std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
-  std::multimap<BodyPair, std::size_t> ahead_;  // The others.
-  std::vector<RobotFlight> flights_;            // Of the robots,
-  std::vector<bool> robots_by_end_;             // and which of them velocities at the end lead.
+  ContactProblem problem_;                     // Its guesses are the impulses of the last plan.
+  std::vector<ManifoldPoint> touches_;         // The touch of each contact of the problem.
+  std::vector<ActingContact> acting_;          // For the present touches.
+  std::optional<Spins> spins_ = {};            // Set where bodies spin in contact.
+  std::optional<LoadsOfContacts> loads_ = {};  // Set where contacts act in flights of robots.
+  bool by_end_ = false;          // Whether bodies in contact move by the velocities at the end.
+  bool laid_by_end_ = false;     // Whether they did so when the rows of ties were made.
+  std::size_t first_ahead_ = 0;  // Touches before it are sorted by their pairs.
+  std::multimap<BodyPair, std::size_t> ahead_;  // The other touches.
+  std::vector<RobotFlight> flights_;            // Flights of the robots,
+  std::vector<bool> robots_by_end_;  // and whether they move by the velocities at the end.
   std::optional<PlanSolution> last_ = {};
-  /// [N s]  Of its contacts, in the world, as they acted: contacts may have turned since.
+  /// [N s]  Impulses of its contacts, in the world, as they acted: contacts may have turned since.
   std::vector<Eigen::Vector3d> impulses_ = {};
-  std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
-  std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.
+  std::vector<std::size_t> changed_ = {};  // Contacts that changed since the last plan.
+  // Displacements of plans from now, until it is in the way.
+  std::optional<ContactSolution> push_ = {};
 };
 
-/// [s]  A time, of a step of h, that is too short for anything to be done in it.
-///
-/// A search of the motion could not divide it.
+/// [s]  Computes a time that is too short for any progress in a step of h. A search of the motion
+/// could not divide it.
 inline double stall(double h) { return kStallOfStep * h; }
 
 }  // namespace firstcontact::detail

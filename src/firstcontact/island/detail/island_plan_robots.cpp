@@ -17,8 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// [m/s]  The fastest point that a change of a robot's velocities moves on any of its links, by a
-/// bound.
+/// [m/s]  Bounds the speed that a change of a robot's velocities gives to any point of its links.
 double fastest_of(const IslandState& state, std::size_t robot, const RobotFlight& flight,
                   const VectorXd& change) {
   double fastest = 0.0;
@@ -37,8 +36,8 @@ bool is_any(const std::vector<bool>& flags) {
 
 }  // namespace
 
-/// Velocities at the end will lead the robots in contact where a contact will act that closes now:
-/// the mean of both ends would close it. So most plans are solved once.
+/// Chooses velocities at the end for the robots whose contacts close now and will act: the mean of
+/// both ends would close them. So most plans are solved once.
 void IslandPlanner::choose_rules() {
   const double slack = slack_of_mean();
   bool closes = false;
@@ -66,9 +65,9 @@ void IslandPlanner::choose_rules() {
   }
 }
 
-/// Whether motors drive a robot that would leave where it is, were it not for what it touches: then
-/// its flight and the forces of its motors there say little about the plan. Where links turn they
-/// do, as the flight takes the contacts.
+/// Whether motors drive a robot that would move away if it touched nothing. Then its flight and the
+/// forces of its motors there are no estimate for the plan. Where links turn they are, as the
+/// flight takes in the contacts.
 bool IslandPlanner::leaves(std::size_t robot) const {
   return state_.robots.has_motors(robot) && turn_of_links() < kSwing &&
          state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
@@ -90,7 +89,7 @@ void IslandPlanner::fly_robots() {
   set_robots();
 }
 
-/// Makes the flights of robots that are not known or have loads.
+/// Makes the flights of robots that are not made yet or have loads.
 void IslandPlanner::make_flights() {
   end_loads_by_rule();
   const std::vector<Eigen::VectorXd> loads = loads_on_robots();
@@ -114,7 +113,7 @@ void IslandPlanner::set_robots() {
   }
 }
 
-/// Flies robots anew where that has to be. Returns whether there were any.
+/// Makes flights anew for robots whose rule changed. Returns whether there were any.
 bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
   std::vector<bool> led =
       state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end, plan_span());
@@ -130,9 +129,9 @@ bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
   return true;
 }
 
-/// The link that each member goes with, of robots that velocities at the end lead: its own, or that
-/// on which it presses. Led by the mean of its velocities, a part in a gripper would slip by half
-/// of what its velocity changes in a plan.
+/// Finds the link that each member goes with, for robots that move by velocities at the end: its
+/// own, or that on which it presses. By the mean of its velocities, a workpiece in a gripper would
+/// slip by half of the change of its velocity in a plan.
 std::vector<std::optional<std::size_t>> IslandPlanner::carriers() const {
   std::vector<std::optional<std::size_t>> carriers(state_.size());
   bool has_more = false;
@@ -163,12 +162,12 @@ std::vector<std::optional<std::size_t>> IslandPlanner::carriers() const {
   return carriers;
 }
 
-/// [rad]  By how much the link that turns fastest now turns in the plan.
+/// [rad]  The turn in the plan of the link that turns fastest now.
 double IslandPlanner::turn_of_links() const {
   return kMostTurnOfLinks * span_ / state_.robots.longest_span();
 }
 
-/// Those of the last solution's contacts on link bodies.
+/// The impulses of the last solution's contacts on link bodies.
 std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
   std::vector<LinkImpulse> impulses;
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
@@ -185,7 +184,8 @@ std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
   return impulses;
 }
 
-/// The robots whose links turn while contacts change their velocities: inertia acts on the change.
+/// Finds the robots whose links turn while contacts change their velocities: inertia acts on the
+/// change.
 std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& impulses) const {
   const double tolerance = projection_options(state_, problem_).tolerance;
   std::vector<bool> loaded(state_.robots.size(), false);
@@ -204,7 +204,7 @@ std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& i
   return loaded;
 }
 
-/// Whether robots that contacts act on in flights get elsewhere than the last solution has them.
+/// Whether robots with contacts in their flights move otherwise than the last solution has them.
 bool IslandPlanner::loads_change_much() const {
   const double tolerance = projection_options(state_, problem_).tolerance;
   for (std::size_t r = 0; r < flights_.size(); ++r) {
@@ -218,8 +218,8 @@ bool IslandPlanner::loads_change_much() const {
   return false;
 }
 
-/// Lets robots fly with the impulses of the last solution's contacts, as bodies that spin do.
-/// Returns whether that changes the problem.
+/// Adds the impulses of the last solution's contacts to the flights of robots, as for bodies that
+/// spin. Returns whether that changes the problem.
 bool IslandPlanner::follow_loads() {
   if (state_.robots.empty() || last_->is_limited || !is_solved(state_, last_->velocities)) {
     return false;
@@ -245,7 +245,7 @@ bool IslandPlanner::follow_loads() {
   return true;
 }
 
-/// Robots that velocities at the end lead fly without contacts.
+/// Removes contacts from the flights of robots that move by velocities at the end.
 void IslandPlanner::end_loads_by_rule() {
   for (std::size_t r = 0; r < robots_by_end_.size() && loads_; ++r) {
     loads_->acts[r] = loads_->acts[r] && !robots_by_end_[r];
@@ -255,8 +255,8 @@ void IslandPlanner::end_loads_by_rule() {
   }
 }
 
-/// The forces along the coordinates of robots that ties, forces on links and contacts are; empty:
-/// there are none.
+/// Computes the forces along the coordinates of robots by ties, forces on links and contacts; empty
+/// where there are none.
 std::vector<VectorXd> IslandPlanner::loads_on_robots() {
   std::vector<VectorXd> forces = ties_.loads(flights_);
   if (!loads_) {
@@ -280,7 +280,7 @@ std::vector<VectorXd> IslandPlanner::loads_on_robots() {
   return forces;
 }
 
-/// Takes the impulses that flights have off those that robots get.
+/// Subtracts the impulses in flights from those on robots.
 void IslandPlanner::take_from_flights(std::vector<OuterImpulse>& outer) const {
   for (std::size_t r = 0; r < outer.size() && loads_; ++r) {
     outer[r].linear -= loads_->in_flight[r].linear;
@@ -288,7 +288,7 @@ void IslandPlanner::take_from_flights(std::vector<OuterImpulse>& outer) const {
   }
 }
 
-/// The next flights have the impulses of the last solution.
+/// Puts the impulses of the last solution into the next flights.
 void IslandPlanner::take_loads() {
   if (by_end_) {
     loads_.reset();
@@ -298,7 +298,7 @@ void IslandPlanner::take_loads() {
   }
 }
 
-/// No flight has contacts any more.
+/// Removes contacts from all flights.
 void IslandPlanner::forget_flights() {
   loads_.reset();
   for (RobotFlight& flight : flights_) {
@@ -306,7 +306,7 @@ void IslandPlanner::forget_flights() {
   }
 }
 
-/// Where velocities at the end lead, or were limited, robots fly without contacts.
+/// Flies robots without contacts where velocities at the end are used, or were limited.
 void IslandPlanner::forget_loads() {
   forget_flights();
   fly_robots();

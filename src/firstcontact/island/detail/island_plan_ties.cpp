@@ -18,17 +18,18 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// [-]  Changes of forces that grow by more from one round to the next never become small.
+/// [-]  Growth of the changes of forces from one round to the next above which they do not
+/// converge.
 constexpr double kGrowthOfTies = 1.5;
 
-/// [-]  Impulses that flights have are no longer than so many times those that act where flights
-/// end, and turn a body no farther than so many times its own turn, and [rad] this.
+/// [-]  Bounds of impulses in flights: this many times those at the end of flights. And of turns:
+/// this many times the body's own turn, and [rad] the second number.
 constexpr double kWildGrowth = 10.0;
 constexpr double kWildTurn = 1.0;
 
 }  // namespace
 
-/// The rows of ties for where the bodies fly.
+/// Makes the rows of ties at the end of the flights.
 void IslandPlanner::lay_ties() {
   std::vector<ContactBody> at_end = problem_.bodies;
   std::vector<bool> spinning(state_.size(), false);
@@ -53,7 +54,7 @@ void IslandPlanner::lay_ties() {
   laid_by_end_ = by_end_;
 }
 
-/// Makes rows anew where bodies fly, and solves.
+/// Makes rows anew at the end of the flights, and solves.
 void IslandPlanner::solve_where_flown() {
   if (state_.robots.empty()) {
     lay_ties();
@@ -65,7 +66,7 @@ void IslandPlanner::solve_where_flown() {
   by_end_ = by_end_ || !mean_is_allowed();
 }
 
-/// Whether the flight of a tied body turns much farther than it would by itself, or is no number.
+/// Whether the flight of a tied body turns much farther than the body's own turn, or is not finite.
 bool IslandPlanner::turns_wildly() const {
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const double most = kWildTurn + kWildGrowth * span_ * state_.states[k].w_WB.norm();
@@ -78,10 +79,10 @@ bool IslandPlanner::turns_wildly() const {
   return false;
 }
 
-/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Where
-/// repeats do not find them, changes are mixed: a force on a long arm or on a light link turns it
-/// more than it moves it. Where neither finds them nothing is predicted: velocities are projected
-/// where flights end, which loses energy. Returns whether they were found.
+/// Adds the forces of ties to the flights of bodies and robots, until they stay the same. Where
+/// repeating this fails, changes are mixed: a force on a long arm or on a light link turns it more
+/// than it moves it. Where both fail nothing is predicted: velocities are projected where flights
+/// end, which loses energy. Returns whether the forces were found.
 bool IslandPlanner::follow_ties() {
   if (repeat_forces_of_ties()) {
     return true;
@@ -94,7 +95,7 @@ bool IslandPlanner::follow_ties() {
   return false;
 }
 
-/// Returns whether the forces were found.
+/// Finds the forces by repeating. Returns whether they were found.
 bool IslandPlanner::repeat_forces_of_ties() {
   double before = std::numeric_limits<double>::infinity();
   const double most = kWildGrowth * changes_of_ties().norm();
@@ -117,7 +118,7 @@ bool IslandPlanner::repeat_forces_of_ties() {
   return true;
 }
 
-/// Likewise, by mixing. The first guess is no impulse at all, too far from the others to count.
+/// Finds them by mixing. The first guess is no impulse at all, too far from the others to count.
 bool IslandPlanner::mix_forces_of_ties() {
   AndersonMixing mixing;
   const double most = kWildGrowth * changes_of_ties().norm();
@@ -132,14 +133,14 @@ bool IslandPlanner::mix_forces_of_ties() {
   return goes_on && ties_.greatest_change(last_->velocities.ties) <= kNearChangeOfTies;
 }
 
-/// Those that the last solution found.
+/// The changes that the last solution found.
 VectorXd IslandPlanner::changes_of_ties() const {
   const std::vector<double>& changes = last_->velocities.ties;
   return VectorXd::Map(changes.data(), static_cast<Eigen::Index>(changes.size()));
 }
 
-/// Lets ties act in flights by these impulses, and solves. Returns false if they are longer than
-/// `most`, or turn a body wildly.
+/// Adds these impulses to the flights, and solves. Returns false if they are longer than `most`, or
+/// turn a body wildly.
 bool IslandPlanner::predict_ties(const VectorXd& impulses, double most) {
   if (!(impulses.norm() <= most)) {
     return false;
@@ -148,14 +149,14 @@ bool IslandPlanner::predict_ties(const VectorXd& impulses, double most) {
   take_spins();
   take_loads();
   fly_bodies();
-  if (turns_wildly()) {  // No flight could be made of that.
+  if (turns_wildly()) {  // Such flights have no further use.
     return false;
   }
   solve_where_flown();
   return true;
 }
 
-/// Predicts no forces of ties, and solves.
+/// Removes the forces of ties, and solves.
 void IslandPlanner::forget_ties() {
   ties_.forget();
   loads_.reset();
@@ -167,14 +168,15 @@ void IslandPlanner::forget_ties() {
   solve_where_flown();
 }
 
-/// Whether forces of ties at a singular position throw bodies beyond all bounds.
+/// Whether forces of ties at a singular position move bodies without bound.
 bool IslandPlanner::leads_nowhere(const Plan& plan) const {
   return !ties_.empty() && !std::ranges::all_of(plan.moves, [](const Move& move) {
     return move.translation.allFinite() && move.rotation_vector.norm() <= kWildTurnOfTied;
   });
 }
 
-/// Leads robots as far as springs have it. Where velocities at the end lead, or motors, these do.
+/// Adds the displacements by springs to robots, except those that move by velocities at the end or
+/// by motors.
 void IslandPlanner::shift_robots(Plan& plan) const {
   std::vector<VectorXd> shifts = ties_.shifts_of_robots(problem_);
   for (std::size_t r = 0; r < shifts.size(); ++r) {
@@ -188,7 +190,7 @@ void IslandPlanner::shift_robots(Plan& plan) const {
 }
 
 /// Adds displacements without velocity that bring joints of ties together, and cables back to their
-/// length, where the plan ends. Contacts come no nearer by them.
+/// length, where the plan ends. They bring contacts no nearer.
 void IslandPlanner::settle_ties(Plan& plan) const {
   if (state_.ties.empty()) {
     return;
@@ -240,10 +242,9 @@ void IslandPlanner::settle_ties(Plan& plan) const {
   }
 }
 
-/// Brings a plan to where contacts and ties have it to second order, and judges what it does to
-/// ties.
+/// Corrects a plan for contacts and ties to second order, and judges its effect on ties.
 ///
-/// @param outer  impulses on robots, of all that the plan has
+/// @param outer  impulses on robots, all of the plan's
 void IslandPlanner::settle(const std::vector<OuterImpulse>& outer, Plan& made) {
   keep_on_curves(made);
   push_apart(made);

@@ -12,7 +12,7 @@
 
 namespace firstcontact::detail {
 
-/// Adds displacements that lead pairs back to their distance of rest.
+/// Adds displacements that bring pairs back to their rest gap.
 void IslandPlanner::push_apart(Plan& plan) {
   if (!state_.is_too_near() || span_ < kLeastSpanOfPush * state_.start.h) {
     return;
@@ -33,9 +33,10 @@ void IslandPlanner::displace(const ContactSolution& displacement, Plan& plan) co
   }
 }
 
-/// A displacement takes no time: no point moves by more than a distance, the contact distance where
-/// parts are pushed. Where parts jam a long way sideways may gain little, as in a chain that is
-/// nearly taut. A share of a displacement is one that the constraints allow, too.
+/// Limits a displacement: it takes no time, so no point moves by more than a distance. For bodies
+/// that are pushed apart it is the contact distance. Where bodies jam a long way sideways may gain
+/// little, as in a chain that is almost taut. The constraints permit a share of a displacement,
+/// too.
 ///
 /// @param most  [m]
 void IslandPlanner::limit_push(double most, ContactSolution& push) const {
@@ -56,20 +57,20 @@ void IslandPlanner::limit_push(double most, ContactSolution& push) const {
   }
 }
 
-/// Displacements that bring a touch ahead about once more are to be found anew, with it: it may be
-/// of features that were beyond the band, on the other side of a link, say. Held by velocities
-/// alone, it would be reached over and over again, in ever shorter plans.
+/// Discards displacements that would cause a predicted contact again; they are found anew, with it.
+/// It may be of features that were beyond the band, as on the other side of a link. Held by
+/// velocities alone, it would be reached again and again, in ever shorter plans.
 void IslandPlanner::keep_push_from(const ContactPoint& contact) {
   if (!push_) {
     return;
   }
-  push_->bodies.resize(problem_.bodies.size());  // Others that came since do not move.
+  push_->bodies.resize(problem_.bodies.size());  // Bodies that came since do not move.
   if (normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.model.distances.least) {
     push_.reset();
   }
 }
 
-/// Gives a problem the bodies, robots, stops and ties of displacements.
+/// Sets the bodies, robots, stops and ties of a problem of displacements.
 void IslandPlanner::set_at_rest(ContactProblem& problem) const {
   problem.bodies = bodies_.bodies();
   for (ContactBody& body : problem.bodies) {
@@ -84,8 +85,8 @@ void IslandPlanner::set_at_rest(ContactProblem& problem) const {
   problem.ties = rigid_rows(state_, bodies_);
 }
 
-/// Displacements, in metres in place of metres per second: least in the kinetic metric, and
-/// without velocity, so that they add no energy of motion.
+/// Finds displacements, in metres in place of metres per second. They are least in the kinetic
+/// metric, and without velocity, so that they add no kinetic energy.
 ContactSolution IslandPlanner::find_push() const {
   const ContactDistances& distances = state_.model.distances;
   const ProjectionOptions options{.tolerance = kPushTolerance * distances.least,
@@ -112,7 +113,7 @@ ContactSolution IslandPlanner::find_push() const {
   }
   set_at_rest(problem);
   if (problem.mechanisms.empty() &&
-      problem.ties.empty()) {  // Most have room: only those around move.
+      problem.ties.empty()) {  // Most have room: only the bodies around them move.
     ProjectionOptions around_options = options;
     around_options.sweeps = kPushSweepsAround;
     ContactSolution around =

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// [m/s, rad/s]  The greatest part of any velocity.
+/// [m/s, rad/s]  The greatest component of any velocity.
 double fastest(const ContactSolution& solution) {
   double greatest = 0.0;
   for (const ContactBody& body : solution.bodies) {
@@ -32,12 +32,12 @@ double fastest(const ContactSolution& solution) {
   return greatest;
 }
 
-/// [m/s]  A part of what gravity adds in a step.
+/// [m/s]  A fraction of what gravity adds in a step.
 double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.model.gravity.norm() * state.start.h);
 }
 
-/// [J]  Of a member, by the inertia that the problem gives it: that of now or, where it spins, that
+/// [J]  The energy of a member, by the inertia in the problem: that of now or, where it spins, that
 /// of the end of the plan.
 double energy_of(const IslandState& state, std::size_t k, const InverseInertia& inverse,
                  const ContactBody& moving) {
@@ -49,7 +49,7 @@ double energy_of(const IslandState& state, std::size_t k, const InverseInertia& 
          0.5 * moving.w.dot(inverse.rotation.inverse() * moving.w);
 }
 
-/// [J]  Of the members and their robots.
+/// [J]  The energy of the members and their robots.
 double energy_of(const IslandState& state, const ContactProblem& problem,
                  const std::vector<ContactBody>& bodies,
                  const std::vector<Eigen::VectorXd>& mechanisms) {
@@ -62,8 +62,8 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
   return sum;
 }
 
-/// The problem with motors that yield a little to what is stronger than anything: to contacts and
-/// limits that leave no room for the velocities that they want. Nothing where none is so strong.
+/// Makes the problem with motors that yield a little to contacts and limits that leave no room for
+/// their target velocities. Nothing where no motor is stronger than any force.
 std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem) {
   std::optional<ContactProblem> yielding;
   for (std::size_t k = 0; k < problem.drives.size(); ++k) {
@@ -78,8 +78,8 @@ std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem
   return yielding;
 }
 
-/// Whether scripts push an island. One that stood still in the step before does not count: what it
-/// would push is jammed.
+/// Whether scripts push an island. A script that waited in the step before does not count: the
+/// bodies that it would push are jammed.
 bool is_pushed(const IslandState& state, const ContactProblem& problem) {
   const auto around = problem.bodies.begin() + static_cast<std::ptrdiff_t>(state.size());
   return std::ranges::find(state.start.waited, true) == state.start.waited.end() &&
@@ -87,7 +87,7 @@ bool is_pushed(const IslandState& state, const ContactProblem& problem) {
                      [](const ContactBody& body) { return body.v.any() || body.w.any(); });
 }
 
-/// The problem with contacts that slip. Nothing where none has friction.
+/// Makes the problem with contacts that slip. Nothing where none has friction.
 std::optional<ContactProblem> with_slippery_contacts(const ContactProblem& problem) {
   ContactProblem slippery = problem;
   bool has_friction = false;
@@ -99,7 +99,7 @@ std::optional<ContactProblem> with_slippery_contacts(const ContactProblem& probl
   return has_friction ? std::optional(std::move(slippery)) : std::nullopt;
 }
 
-/// Whether nothing outside acts on an island through contacts, and nothing holds a part of it.
+/// Whether no body outside acts on an island through contacts, and none of its bodies is held.
 bool is_isolated(const IslandState& state, const ContactProblem& problem) {
   const auto is_set = [](bool lock) { return lock; };
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -124,10 +124,10 @@ bool is_isolated(const IslandState& state, const ContactProblem& problem) {
   });
 }
 
-/// Mass, moments and momenta of many things, about the origin.
+/// The sum of masses, moments and momenta, about the origin.
 class Sum {
  public:
-  /// @param inertia   (6, 6)  of (v, w) at a point, @param momentum  about it
+  /// @param inertia   (6, 6)  of (v, w) at a point, @param momentum  about the point
   void add(const Matrix6d& inertia, const Vector6d& momentum, const Vector3d& point) {
     Matrix6d to_point = Matrix6d::Identity();  // Velocities at the origin give those at the point.
     to_point.topRightCorner<3, 3>() << 0.0, point.z(), -point.y(), -point.z(), 0.0, point.x(),
@@ -136,7 +136,7 @@ class Sum {
     momentum_ += to_point.transpose() * momentum;
   }
 
-  /// The velocity that all of it has, moving as one rigid body with these momenta.
+  /// The velocity of all of it as one rigid body with these momenta.
   [[nodiscard]] Vector6d velocity() const { return inertia_.ldlt().solve(momentum_); }
 
  private:
@@ -144,7 +144,7 @@ class Sum {
   Vector6d momentum_ = Vector6d::Zero();
 };
 
-/// An island that moves as one rigid body with the momenta of a solution.
+/// Makes the motion of an island as one rigid body with the momenta of a solution.
 ContactSolution as_one_body(const IslandState& state, const ContactProblem& problem,
                             const ContactSolution& solution) {
   Sum sum;
@@ -194,8 +194,8 @@ void shorten(const ContactSolution& to, double share, std::size_t members,
   }
 }
 
-/// Shortens the velocities of an isolated island relative to its motion as one body, so that it
-/// keeps its momenta and has the allowed energy [J].
+/// Shortens the velocities of an isolated island relative to its motion as one body. So it keeps
+/// its momenta and has the permitted energy [J].
 void shorten_within(const IslandState& state, const ContactProblem& problem, double allowed,
                     ContactSolution& solution) {
   const ContactSolution one = as_one_body(state, problem, solution);
@@ -215,12 +215,12 @@ void shorten_within(const IslandState& state, const ContactProblem& problem, dou
   shorten(one, std::clamp(share, 0.0, 1.0), state.size(), solution);
 }
 
-/// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
-/// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
-/// its own speed twice, and so does a belt. Of a problem without solution, as of a body that is
-/// crushed, the solver's answer is anything: it is shortened to what there was before, or to what
-/// moves with the script. An island on which nothing outside acts keeps its momenta. Motors add
-/// what they want, as long as there is a solution.
+/// Limits the energy of a solution: contacts add none. Without moving bodies around, rest meets all
+/// contacts, so the projection on them makes no velocity longer in the kinetic metric. A scripted
+/// body adds at most its own speed twice, and so does a belt. For a problem without solution, as
+/// for a crushed body, the solver's answer is arbitrary: it is shortened to the energy before, or
+/// to that of moving with the script. An isolated island keeps its momenta. Motors add what they
+/// want, as long as there is a solution.
 ///
 /// @param free  [J]  before; if nothing, that of the problem's velocities
 /// @returns whether it was shortened
@@ -268,12 +268,12 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   return true;
 }
 
-/// Whether sweeps alone would not do.
+/// Whether sweeps alone would not converge.
 bool has_many(const IslandState& state, std::size_t contacts) {
   return contacts >= kHeapContacts && state.size() >= kHeapBodies;
 }
 
-/// Whether no member moves by more than what the solver may leave.
+/// Whether no member moves faster than the residual of the solver.
 bool stands(const IslandState& state) {
   const double slow = of_gravity(state, kStandsOfGravity);
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -355,8 +355,8 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
   return {.tolerance = exact, .rounds = kRoundsOfMany};
 }
 
-/// Free bodies that are hit within a plan need not be solved as exactly as those that an impact
-/// parts.
+/// Chooses the options of a plan. Free bodies that meet within a plan need not be solved as exactly
+/// as those that an impact parts.
 ProjectionOptions plan_options(const IslandState& state, const ContactProblem& problem) {
   ProjectionOptions options = projection_options(state, problem);
   if (state.size() >= kSeveralBodies && state.robots.empty() && !state.model.gravity.isZero(0.0)) {

@@ -24,7 +24,7 @@ bool IslandPlanner::may_spin(std::size_t k) const {
 
 bool IslandPlanner::spins(std::size_t k) const { return spins_ && spins_->impulses[k]; }
 
-/// [N m s]  Of the contacts on each member in the last solution.
+/// [N m s]  The angular impulses of the contacts on each member in the last solution.
 std::vector<Vector3d> IslandPlanner::angular_impulses() const {
   std::vector<Vector3d> impulses(state_.size(), Vector3d::Zero());
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
@@ -41,8 +41,8 @@ std::vector<Vector3d> IslandPlanner::angular_impulses() const {
   return impulses;
 }
 
-/// Lets bodies that spin turn with the angular impulses of the last solution, as ties do with
-/// theirs: gyroscopic moments act on what these impulses change. Returns whether that changes the
+/// Adds the angular impulses of the last solution to the flights of bodies that spin, as for ties.
+/// Gyroscopic moments act on the changes by these impulses. Returns whether that changes the
 /// problem.
 bool IslandPlanner::follow_spins() {
   if (last_->is_limited || !is_solved(state_, last_->velocities)) {
@@ -65,9 +65,9 @@ bool IslandPlanner::follow_spins() {
   return is_changed;
 }
 
-/// Lets a member fly with an angular impulse of contacts [N m s], if that changes its velocity by
-/// more than a tolerance [m/s]. The next solution finds all of the impulses again, so what this one
-/// does to the velocity is taken off the flight.
+/// Adds an angular impulse of contacts [N m s] to a member's flight, if it changes the velocity by
+/// more than a tolerance [m/s]. The next solution finds all of the impulses again, so the change of
+/// velocity by this one is subtracted from the flight.
 bool IslandPlanner::spin(std::size_t k, const Vector3d& impulse, double tolerance) {
   const Inertia& inertia = state_.member(k).inertia;
   const RigidState& state = state_.states[k];
@@ -93,7 +93,7 @@ bool IslandPlanner::spin(std::size_t k, const Vector3d& impulse, double toleranc
   return true;
 }
 
-/// The flights of all bodies, with the forces that are predicted for their ties and the impulses of
+/// Makes the flights of all bodies, with the predicted forces of their ties and the impulses of
 /// contacts on those that spin.
 void IslandPlanner::fly_bodies() {
   flight_ = free_flight();
@@ -113,7 +113,7 @@ void IslandPlanner::fly_bodies() {
   }
 }
 
-/// The next flights have the impulses of the last solution.
+/// Puts the impulses of the last solution into the next flights.
 void IslandPlanner::take_spins() {
   if (by_end_) {
     spins_.reset();
@@ -129,7 +129,7 @@ void IslandPlanner::take_spins() {
   }
 }
 
-/// Where velocities at the end lead, bodies keep the velocities that they have without contacts.
+/// Flies bodies without the impulses of contacts, where they move by velocities at the end.
 void IslandPlanner::forget_spins() {
   spins_.reset();
   fly_bodies();
@@ -154,7 +154,7 @@ void IslandPlanner::end_spins() {
   by_end_ = by_end_ || !mean_is_allowed();
 }
 
-/// Gives velocities at the end the coordinates that they have in the axes of now.
+/// Gives velocities at the end their coordinates in the axes of now.
 void IslandPlanner::carry_back(Plan& plan) const {
   for (std::size_t k = 0; k < state_.size(); ++k) {
     if (spins(k)) {

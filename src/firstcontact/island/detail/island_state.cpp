@@ -14,7 +14,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A body as manifolds see it.
+/// A body for manifolds.
 struct RestingBody {
   RestingBody(const SimBody& body, const Pose& X_WB)
       : hull(body, X_WB, Move()), shape(body.shape, X_WB) {}
@@ -155,7 +155,7 @@ void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Works
     Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
     if (manifold.gap <= model.distances.band || !manifold.touches.empty()) {
       carry_impulses(before, smaller_reach(model, pair), manifold);
-      manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
+      manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // Most are last.
     }
   });
   SeamFinder seams(*this, workspace, [&](std::size_t body) { return pose_of(body); });

@@ -1,5 +1,5 @@
 /// @file
-/// The bodies of an island within a step: where they are and what they touch.
+/// The bodies of an island within a step: their states and their touches.
 
 #pragma once
 
@@ -32,13 +32,15 @@ struct StepContext {
   const SimulationModel& model;
   const StepStart& start;
   const Obstacles& around;
-  const std::vector<ManifoldPoint>& guesses;  ///< Touches of the step before, sorted; their
-                                              ///< impulses start the solver.
+  /// Touches of the step before, sorted; their impulses start the solver.
+  const std::vector<ManifoldPoint>& guesses;
   const std::stop_token& stop;
 };
 
-/// An island now: plans, searches and impacts look at it, and Island moves it.
+/// An island now: plans, searches and impacts read it, and Island moves it.
 struct IslandState {
+  /// Makes the state at the begin of a step.
+  ///
   /// @param bare_robots  robots of the island without geometry
   IslandState(const StepContext& step, std::vector<std::size_t> given_members,
               const std::vector<std::size_t>& bare_robots = {});
@@ -46,43 +48,47 @@ struct IslandState {
   [[nodiscard]] std::size_t size() const { return members.size(); }
   [[nodiscard]] const SimBody& member(std::size_t k) const { return model.bodies[members[k]]; }
 
-  /// Where a member is now, or a body around the island.
+  /// The present pose of a member, or of a body around the island.
   [[nodiscard]] const Pose& pose_of(std::size_t body);
 
-  /// The members as they move now, and what they touch.
+  /// The members with their present motions, for a contact problem.
   [[nodiscard]] ProblemBodies problem_bodies() const;
 
-  /// Where a body is that is tied: links are where their joints have them.
+  /// The present pose of a tied body; that of a link is given by its joints.
   [[nodiscard]] Pose tied_pose(std::size_t body);
 
-  /// Adds those of the pair that are around the island.
+  /// Adds the bodies of the pair that are around the island.
   void add_others(const BodyPair& pair, ProblemBodies& bodies);
 
-  /// A contact of the problem at a touch, with its impulse as guess, its friction and its belts.
+  /// Makes the contact of a touch for the problem, with its impulse as guess, its friction and its
+  /// belts.
   [[nodiscard]] ContactPoint contact(const ManifoldPoint& touch, const ProblemBodies& bodies,
                                      double least_normal_velocity);
 
-  /// [m/s]  The tangential velocity at which a contact of the pair sticks, as their belts run.
+  /// [m/s]  Computes the tangential velocity at which a contact of the pair sticks, as their belts
+  /// run.
   ///
   /// @param frame  of the contact
   [[nodiscard]] Eigen::Vector2d belt_velocity(const BodyPair& pair, const Eigen::Matrix3d& frame);
 
-  /// Whether a pair that closes so fast [m/s] does.
+  /// Whether a pair that closes at this speed [m/s] bounces.
   [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const;
 
+  /// Whether any pair is nearer than a distance.
+  ///
   /// @param distance  [m]
   [[nodiscard]] bool is_nearer(double distance) const;
 
-  /// Whether any pair is nearer than where it is left.
+  /// Whether any pair is nearer than its rest gap.
   [[nodiscard]] bool is_too_near() const;
 
-  /// How many touches there are now.
+  /// Counts the present touches.
   [[nodiscard]] std::size_t touches() const;
 
-  /// The curves, rotations and angular velocities of a touch's bodies, without all else.
+  /// The curves, rotations and angular velocities of a touch's bodies, without the rest of a side.
   [[nodiscard]] std::array<ContactSide, 2> turning_sides(const ManifoldPoint& touch);
 
-  /// Looks around after bodies were moved.
+  /// Finds the manifolds after bodies were moved.
   ///
   /// @param before  sorted touches whose impulses go to those found
   void find_manifolds(const std::vector<ManifoldPoint>& before, Workspace& workspace);
@@ -94,7 +100,7 @@ struct IslandState {
   /// their margin.
   ///
   /// @param boxes  of each member, over its motion
-  /// @param share  of the step, for which bodies around the island move
+  /// @param share  share of the step for which bodies around the island move
   template <class Use>
   void for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double reach, double share,
                      const Use& use);
@@ -103,17 +109,18 @@ struct IslandState {
   const StepStart& start;
   const Obstacles& around;
   std::vector<std::size_t> members;
-  std::unordered_map<std::size_t, std::size_t> place;  ///< Of each member.
-  std::vector<RigidState> states;                      ///< Of each member.
+  std::unordered_map<std::size_t, std::size_t> place;  ///< Index of each member.
+  std::vector<RigidState> states;                      ///< State of each member.
   IslandRobots robots;
   std::map<BodyPair, Manifold> manifolds;
   double reached = 0.0;                                ///< [s]  Since the step began.
-  std::unordered_map<std::size_t, Pose> poses_around;  ///< Of those asked for, now.
-  std::vector<std::size_t> ties = {};                  ///< Of the model, that have a member.
-  std::size_t taut = 0;                                ///< Cables that became taut in the step.
-  std::size_t slips = 0;  ///< Solutions of the step in which contacts slipped.
+  std::unordered_map<std::size_t, Pose> poses_around;  ///< Poses now of bodies that were needed.
+  std::vector<std::size_t> ties = {};  ///< Indices in the model of ties with a member.
+  std::size_t taut = 0;                ///< Number of cables that became taut in the step.
+  std::size_t slips = 0;  ///< Number of solutions in the step in which contacts slipped.
 };
 
+/// A box that is wider by `by` on all sides.
 inline Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double by) {
   const Eigen::Vector3d slack = Eigen::Vector3d::Constant(by);
   return {box.min() - slack, box.max() + slack};

@@ -23,7 +23,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The ends where bodies are now. Impulses of joints act in the middle of their two points.
+/// The ends at the present places of bodies. Impulses of joints act in the middle of their two
+/// points.
 std::array<TiedSide, 2> sides_now(const SimTie& tie, const TiePlace& place,
                                   const ProblemBodies& bodies) {
   std::array<TiedSide, 2> sides;
@@ -37,7 +38,7 @@ std::array<TiedSide, 2> sides_now(const SimTie& tie, const TiePlace& place,
   return sides;
 }
 
-/// Adds the rows of a joint where its bodies are now.
+/// Adds the rows of a joint at the present places of its bodies.
 void add_joint_now(IslandState& state, const SimTie& tie, const ProblemBodies& bodies,
                    std::vector<TieRow>& rows) {
   const TiePlace place = place_now(state, tie);
@@ -47,7 +48,7 @@ void add_joint_now(IslandState& state, const SimTie& tie, const ProblemBodies& b
   }
 }
 
-/// Where a tie is, a share of a plan ahead.
+/// Finds the place of a tie, a share of a plan ahead.
 TiePlace place_ahead(IslandState& state, const SimTie& tie, const Plan& plan, double span,
                      double share) {
   return place_of(tie, [&](std::size_t body) {
@@ -57,21 +58,21 @@ TiePlace place_ahead(IslandState& state, const SimTie& tie, const Plan& plan, do
                            (state.reached + share * span) / state.start.h);
     }
     const std::size_t k = member->second;
-    if (state.member(k).link_body) {  // Its piece of the run is a chord of the way of its joints.
+    if (state.member(k).link_body) {  // Its piece of the run is a chord of the path by its joints.
       return state.robots.pose_ahead(k, plan.robots, share);
     }
     return motion_of(state.member(k), state.states[k].X_WB, plan.moves[k]).pose(share);
   });
 }
 
-/// [m]
+/// [m]  The length of a cable, a share of a plan ahead.
 double length_at(IslandState& state, const SimTie& tie, const Plan& plan, double span,
                  double share) {
   return place_ahead(state, tie, plan, span, share).between().norm();
 }
 
-/// [m]  How far a joint is apart, or a cable beyond its length. What is turned off a joint counts
-/// by the reach of its bodies.
+/// [m]  The distance by which a joint is apart, or a cable beyond its length. Angles between the
+/// sides of a joint count by the reach of its bodies.
 double torn_at(const IslandState& state, const SimTie& tie, const TiePlace& place) {
   if (tie.is_inextensible()) {
     return place.between().norm() - tie.length;
@@ -178,7 +179,7 @@ void add_tied_bodies(IslandState& state, ProblemBodies& bodies) {
 std::vector<TieRow> rigid_rows(IslandState& state, const ProblemBodies& bodies) {
   const std::vector<bool> redundant = redundant_rows(state, bodies);
   std::vector<TieRow> rows;
-  std::size_t next = 0;  // Of the rows of joints.
+  std::size_t next = 0;  // Index among the rows of joints.
   for (const std::size_t t : state.ties) {
     const SimTie& tie = state.model.ties[t];
     if (tie.is_joint()) {
@@ -262,7 +263,7 @@ bool tears_ties(IslandState& state, const Plan& plan, double span) {
     const SimTie& tie = state.model.ties[t];
     const TiePlace place = place_now(state, tie);
     if (tie.is_inextensible() && state.taut <= kMostTautEvents && !is_taut(state, tie, place)) {
-      return false;  // The plan is followed until it is taut.
+      return false;  // The plan is followed until the cable is taut.
     }
     const double now = torn_at(state, tie, place);
     const double most = std::max(state.model.distances.least, kTearing * now);

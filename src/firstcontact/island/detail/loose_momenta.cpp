@@ -20,7 +20,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Whether all that acts on the island is within it.
+/// Whether all forces on the island come from within it.
 bool is_loose(const IslandState& state, const std::vector<ManifoldPoint>& touches) {
   const auto is_member = [&](std::size_t body) { return state.place.contains(body); };
   const auto is_free = [&](std::size_t body) {
@@ -52,12 +52,12 @@ struct Part {
 
   double mass = 0.0;                     // [kg]
   Vector3d centre = Vector3d::Zero();    // [m]
-  Vector3d velocity = Vector3d::Zero();  // [m/s]  Of the centre.
-  Vector3d spin = Vector3d::Zero();      // [kg m^2/s]  Its angular momentum about the centre,
-  Matrix3d inertia = Matrix3d::Zero();   // [kg m^2]    and its inertia.
+  Vector3d velocity = Vector3d::Zero();  // [m/s]  Velocity of the centre.
+  Vector3d spin = Vector3d::Zero();      // [kg m^2/s]  Angular momentum about the centre,
+  Matrix3d inertia = Matrix3d::Zero();   // [kg m^2]    and the inertia.
 };
 
-/// Of an island: its robots first, then its free bodies.
+/// The parts of an island: its robots first, then its free bodies.
 class Parts {
  public:
   explicit Parts(const IslandState& state) {
@@ -89,7 +89,7 @@ class Parts {
     return sum;
   }
 
-  /// [m]  The centre of what each part is tied to.
+  /// [m]  The centre of the tied group of each part.
   [[nodiscard]] std::vector<Vector3d> centres_of_groups(const IslandState& state) const {
     DisjointSets sets(all.size());
     for (const std::size_t t : state.ties) {
@@ -109,7 +109,7 @@ class Parts {
   }
 
   std::vector<Part> all = {};
-  std::vector<std::size_t> of_member = {};  // The part of each.
+  std::vector<std::size_t> of_member = {};  // The part of each member.
   Part whole = {};
 
  private:

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [m]  How far its script moves a point of a body in the step; nothing where it does not.
+/// [m]  The displacement of a point of a body by its script in the step; nothing where it does not
+/// move.
 std::optional<Vector3d> scripted_way(IslandState& state, std::size_t body, const Vector3d& point) {
   const Move& move = state.start.scripted[body];
   if (move.is_none()) {

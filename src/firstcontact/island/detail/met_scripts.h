@@ -1,5 +1,5 @@
 /// @file
-/// The scripts that an island meets in a step, and which of them crush it where it jams.
+/// The scripts that an island meets in a step, and those that crush it where it jams.
 
 #pragma once
 
@@ -17,26 +17,26 @@ struct ManifoldPoint;
 /// Scripted bodies that move and touch an island, are in the way of a plan, or pull at a tie.
 class MetScripts {
  public:
-  /// Takes note of scripts that touch the island, and of how far they close there in the step by
+  /// Notes the scripts that touch the island, and how far they close there in the step by
   /// themselves.
   void meet(IslandState& state, const ManifoldPoint& touch);
 
-  /// Takes note of scripts that pull at ties.
+  /// Notes the scripts that pull at ties.
   void meet_ties(IslandState& state);
 
-  /// Begins with those that stop a plan.
+  /// Starts the notes about the scripts that stop a plan.
   void begin_plan() { in_plan_.clear(); }
   void meet_in_plan(IslandState& state, const ManifoldPoint& touch);
 
-  /// Whether any of them had to wait before.
+  /// Whether any of these scripts had to wait before.
   [[nodiscard]] bool try_again() const { return try_again_; }
 
-  /// The bodies that close fastest where the last plan was stopped, or else on all that the island
-  /// met. What moves along a contact, or away, crushes nothing.
+  /// The bodies that close fastest where the last plan was stopped, or else at all touches that the
+  /// island met. A body that moves along a contact, or away, crushes nothing.
   [[nodiscard]] std::vector<std::size_t> crushing() const;
 
  private:
-  using Ways = std::map<std::size_t, double>;  // [m]  Of each body, how far it closes.
+  using Ways = std::map<std::size_t, double>;  // [m]  For each body how far it closes.
 
   void add(const IslandState& state, std::size_t body, double closing, Ways& ways);
   void add(IslandState& state, const ManifoldPoint& touch, Ways& ways);

@@ -22,9 +22,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The vector between two points halfway through a plan, by the lengths at both ends: along it, the
-/// way between the points is the change of the length (O. Gonzalez, "Time integration and discrete
-/// Hamiltonian systems", Journal of Nonlinear Science 6 (1996)). Nearly a unit vector.
+/// The vector between two points halfway through a plan, by the lengths at both ends. Along it, the
+/// displacement between the points is the change of the length (O. Gonzalez, "Time integration and
+/// discrete Hamiltonian systems", Journal of Nonlinear Science 6 (1996)). Its length is almost 1.
 Vector3d mean_direction(const Vector3d& now, const Vector3d& end) {
   const Vector3d sum = now + end;
   const double lengths = now.norm() + end.norm();
@@ -34,7 +34,7 @@ Vector3d mean_direction(const Vector3d& now, const Vector3d& end) {
   return now.norm() > 0.0 ? Vector3d(now.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
-/// Three axes: the first one along the line between the points of a spring of no length, as its
+/// Three axes for a spring of no length. The first one is along the line between its points, as its
 /// damper acts along that line alone.
 std::vector<TieDirection> axes_of_line(const Vector3d& now, const Vector3d& end) {
   const Vector3d sum = now.dot(end) >= 0.0 ? Vector3d(now + end) : Vector3d(end - now);
@@ -50,7 +50,7 @@ std::vector<TieDirection> axes_of_line(const Vector3d& now, const Vector3d& end)
   return {{.linear = along}, {.linear = across}, {.linear = along.cross(across)}};
 }
 
-/// [m]  How far displacements of robots lead along a row.
+/// [m]  Computes the path along a row by displacements of robots.
 double way_along(const TieRow& row, const ContactProblem& problem,
                  const std::vector<VectorXd>& of_robots) {
   double way = 0.0;
@@ -110,7 +110,7 @@ bool PlanTies::Acting::is_out(std::size_t direction) const {
   return direction < is_redundant.size() && is_redundant[direction];
 }
 
-/// The end of a joint whose body an impulse turns most; none without a free body.
+/// Finds the end of a joint whose body an impulse turns most; none without a free body.
 std::optional<std::size_t> PlanTies::lever_of(const Acting& acting) const {
   std::optional<std::size_t> lever;
   double most = 0.0;  // [1/kg]
@@ -163,8 +163,8 @@ void PlanTies::follow(Acting& acting, const IslandFlight& flight) const {
   }
 }
 
-/// Turns the three directions of a joint's force with the body that it turns most. So an impulse
-/// along a long arm stays along it while flights are searched for in which arms point elsewhere.
+/// Turns the three directions of a joint's force with its lever's body. So an impulse along a long
+/// arm stays along it during the search for flights, in which arms point elsewhere.
 void PlanTies::turn_with_lever(Acting& acting) const {
   if (!acting.lever) {
     return;
@@ -305,7 +305,7 @@ void PlanTies::add_spring(Acting& acting, std::size_t k, const ProblemBodies& no
   way.inverse_mass = inverse_mass_between(row, row, problem);
   const bool is_cable = tie.type == TieType::cable;
   if (is_cable && way.begin < 0.0) {
-    if (way.flight <= 0.0) {  // Slack: nothing acts.
+    if (way.flight <= 0.0) {  // Slack: no force acts.
       row.least = -acting.predicted[k];
       row.greatest = -acting.predicted[k];
       return;

@@ -25,22 +25,27 @@ struct IslandState;
 
 /// The flights of all members, from which a contact problem starts.
 struct IslandFlight {
-  const std::vector<Move>& moves;  ///< Of each member that is no link body.
+  const std::vector<Move>& moves;  ///< For each member that is no link body.
   const std::vector<RobotFlight>& robots;
-  const std::vector<bool>& by_end;  ///< Of the problem's bodies: velocities at the end lead them.
-  const std::vector<ContactBody>& at_end;  ///< Of the problem's bodies: as fast as they are there.
-  const std::vector<bool>& spins;  ///< Of each member: its angular velocity there is the world's.
+  /// Whether each body of the problem moves by the velocities at the end.
+  const std::vector<bool>& by_end;
+  /// The velocities of each body of the problem at the end.
+  const std::vector<ContactBody>& at_end;
+  /// Whether the angular velocity of each member at the end is in world axes.
+  const std::vector<bool>& spins;
 };
 
 /// The ties of an island over a plan.
 ///
-/// Impulses act in two parts. Those predicted are constant forces in the flights of the bodies, and
-/// act where the tie is halfway. The contact problem finds how much they have to change: joints and
-/// taut cables have no velocity where the flights end, and springs pull with the mean of both ends.
-/// The changes are taken into the flights until they are small. So the rule is of second order, and
-/// joints keep the energy. Nothing of a plan is needed for the next one.
+/// Impulses act in two parts. The predicted ones are constant forces in the flights of the bodies,
+/// and act at the place of the tie halfway. The contact problem finds their changes. In it joints
+/// and taut cables have velocity 0 where the flights end, and springs pull with the mean of both
+/// ends. The flights take in the changes until these are small. So the rule is of second order, and
+/// joints keep the energy. A plan needs nothing of the plan before.
 class PlanTies {
  public:
+  /// Finds the ties of an island.
+  ///
   /// @param span  [s]
   PlanTies(IslandState& state, double span);
 
@@ -51,93 +56,95 @@ class PlanTies {
   /// link body.
   void add_to(std::size_t member, Eigen::Vector3d& force, Eigen::Vector3d& torque) const;
 
-  /// How much farther a member gets than by the mean of its velocities at both ends: predicted
-  /// forces of joints turn within the plan, and dampers change velocities before its middle.
+  /// Computes the displacement of a member beyond that by the mean of its velocities at both ends.
+  /// Predicted forces of joints turn within the plan, and dampers change velocities before its
+  /// middle.
   [[nodiscard]] Move shift(std::size_t member) const;
 
-  /// Likewise the displacements of the coordinates of robots; empty: there are none.
+  /// Computes the like displacements of the coordinates of robots; empty where there are none.
   [[nodiscard]] std::vector<Eigen::VectorXd> shifts_of_robots(const ContactProblem& problem) const;
 
-  /// Takes note of how much velocities change in the flights, for these shifts.
+  /// Notes the changes of velocities in the flights, for these shifts.
   ///
-  /// @param at_end  as that of IslandFlight
+  /// @param at_end  as in IslandFlight
   void take_changes(const ProblemBodies& now, const std::vector<ContactBody>& at_end);
 
-  /// The predicted forces along the coordinates of robots, and those on their links; empty: none.
+  /// The predicted forces along the coordinates of robots, and those on their links; empty for
+  /// none.
   [[nodiscard]] std::vector<Eigen::VectorXd> loads(const std::vector<RobotFlight>& flights) const;
 
   /// Makes the rows of a problem whose bodies have the velocities of the flights.
   ///
-  /// @param now  the bodies as they move when the plan begins
+  /// @param now  the bodies with their motions when the plan begins
   void lay(const ProblemBodies& now, const IslandFlight& flight, ContactProblem& problem);
 
-  /// [-]  The greatest change of an impulse in a solution, as a part of the greatest impulse.
+  /// [-]  The greatest change of an impulse in a solution, as a fraction of the greatest impulse.
   [[nodiscard]] double greatest_change(const std::vector<double>& changes) const;
 
   /// The predicted impulses [N s or N m s], in the order of the rows.
   [[nodiscard]] Eigen::VectorXd predicted() const;
 
-  /// Predicts with impulses in the order of the rows.
+  /// Sets the predicted impulses, in the order of the rows.
   void predict(const Eigen::VectorXd& impulses);
 
-  /// Predicts that no tie acts.
+  /// Sets all predicted impulses to 0.
   void forget();
 
-  /// Adds what the changes of a solution do to robots.
+  /// Adds the changes of a solution to the impulses on robots.
   void add_changes(const std::vector<double>& changes, std::vector<OuterImpulse>& outer) const;
 
-  /// Adds all that ties and forces on links do to robots, the changes included.
+  /// Adds all impulses of ties and of forces on links to those on robots, the changes included.
   void add_all(const std::vector<double>& changes, std::vector<OuterImpulse>& outer) const;
 
   /// The impulses of all ties, the changes included.
   [[nodiscard]] std::vector<TieTrackPiece> impulses(const std::vector<double>& changes) const;
 
   /// Adds the rows of displacements that bring joints together, and cables back to their length,
-  /// where a plan ends. Returns by how much the farthest is off [m or rad].
+  /// where a plan ends. Returns the greatest error that they correct [m or rad].
   ///
-  /// @param at_end   poses of the members there
+  /// @param at_end   poses of the members at the end of the plan
   /// @param changes  of the solution
   double add_settling(const std::vector<Pose>& at_end, const std::vector<double>& changes,
                       const ProblemBodies& now, ContactProblem& problem) const;
 
  private:
-  /// A direction of a spring, as the last rows have it.
+  /// A direction of a spring in the last rows.
   struct SpringInPlan {
-    TieRow at_begin = {};       // As bodies move when the plan begins,
-    TieRow at_end = {};         // and where it ends.
-    double weight = 0.5;        // [-]  Of the end.
+    TieRow at_begin = {};       // At the motions when the plan begins,
+    TieRow at_end = {};         // and when it ends.
+    double weight = 0.5;        // [-]  Weight of the end.
     double inverse_mass = 0.0;  // [1/kg]
-    /// [kg m]  Along the direction, it leads bodies as far as velocities change.
+    /// [kg m]  Impulse along the direction that would move bodies as far as velocities change.
     double lead = 0.0;
   };
   /// A tie in the plan.
   struct Acting {
     const SimTie* tie = nullptr;
-    std::size_t index = 0;                  // Of the model.
-    std::optional<std::size_t> lever = {};  // The end whose body impulses turn most.
+    std::size_t index = 0;                  // Index in the model.
+    std::optional<std::size_t> lever = {};  // The end whose body turns most by impulses.
     TiePlace now = {};
-    TiePlace end = {};  // Where flights lead.
+    TiePlace end = {};  // At the end of the flights.
     std::array<Eigen::Vector3d, 2> centres_now = {};
     std::array<Eigen::Vector3d, 2> centres_end = {};
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // [rad]  Of that body in the plan.
-    std::vector<TieDirection> halfway = {};          // In which predicted impulses act,
-    std::array<Eigen::Vector3d, 2> at = {};          // [m]  and where.
-    std::vector<TieDirection> changing = {};         // In which those of the problem act,
-    std::array<Eigen::Vector3d, 2> where = {};       // [m]  and where.
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // [rad]  Turn of the lever's body in the plan.
+    std::vector<TieDirection> halfway = {};          // Directions of predicted impulses,
+    std::array<Eigen::Vector3d, 2> at = {};          // [m]  and their points.
+    std::vector<TieDirection> changing = {};         // Directions of the problem's impulses,
+    std::array<Eigen::Vector3d, 2> where = {};       // [m]  and their points.
     std::vector<double> predicted = {};              // [N s or N m s]
-    std::vector<bool> is_redundant = {};             // Of each direction of a joint.
-    std::vector<SpringInPlan> springs = {};          // Of each direction of a spring.
+    std::vector<bool> is_redundant = {};             // For each direction of a joint.
+    std::vector<SpringInPlan> springs = {};          // For each direction of a spring.
     bool by_end = false;
     std::size_t first_row = 0;
 
-    /// [m]  From the centre of mass of an end's body to where predicted impulses act.
+    /// [m]  Vector from the centre of mass of an end's body to the point of predicted impulses.
     [[nodiscard]] Eigen::Vector3d arm_halfway(std::size_t side) const {
       return at[side] - 0.5 * (centres_now[side] + centres_end[side]);
     }
-    /// Whether rows before that of a direction imply it.
+    /// Whether the rows before imply that of a direction.
     [[nodiscard]] bool is_out(std::size_t direction) const;
   };
-  /// A force on a link body, of the mean over the span.
+  /// A force on a link body, as the mean over the span.
   struct LinkForce {
     std::size_t member;
     Eigen::Vector3d force;

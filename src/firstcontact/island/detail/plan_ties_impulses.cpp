@@ -1,4 +1,4 @@
-// The impulses of ties over a plan: those that flights have, and those that a solution adds.
+// The impulses of ties over a plan: those in the flights, and those that a solution adds.
 
 #include <algorithm>
 #include <array>
@@ -93,17 +93,17 @@ std::vector<VectorXd> PlanTies::loads(const std::vector<RobotFlight>& flights) c
 }
 
 /// Forces of joints turn: over a span h the trapezoidal rule errs by h^2 / 12 times the change of
-/// the acceleration. That of an acceleration a that turns by a small phi is phi x a. Along a spring
-/// bodies are led by the weighted mean of velocities that its row has.
+/// the acceleration. For an acceleration a that turns by a small phi the change is phi x a. Along a
+/// spring bodies move by the weighted mean of velocities of its row.
 Move PlanTies::shift(std::size_t member) const {
-  TieImpulse way;  // Of mass times way, and of moment of inertia times turn.
+  TieImpulse way;  // Mass times displacement, and moment of inertia times turn.
   for (const Acting& acting : acting_) {
     for (std::size_t s = 0; s < 2 && !acting.halfway.empty(); ++s) {
       if (acting.tie->ends[s].body != state_.members[member]) {
         continue;
       }
       const double sign = s == 0 ? -1.0 : 1.0;
-      // A weld keeps the angular momentum of what tumbles: forces and torques turn apart there.
+      // A weld keeps the angular momentum of tumbling bodies: forces and torques turn apart there.
       if (acting.lever && acting.tie->type != TieType::weld) {
         const Vector3d linear = sum_of(acting.halfway, acting.predicted).linear;
         way.linear -= span_ / 12.0 * sign * acting.turn.cross(linear);
@@ -181,7 +181,7 @@ void PlanTies::predict(const VectorXd& impulses) {
 void PlanTies::forget() {
   for (Acting& acting : acting_) {
     std::ranges::fill(acting.predicted, 0.0);
-    acting.halfway.clear();  // Flights may have led anywhere.
+    acting.halfway.clear();  // The directions of other flights do not hold.
     acting.springs.clear();
   }
 }

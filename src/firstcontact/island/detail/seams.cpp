@@ -20,13 +20,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A shape of one point.
+/// The shape of a single point.
 const Shape& point_shape() {
   static const Shape point({.vertices = {{0.0, 0.0, 0.0}}, .triangles = {{0, 0, 0}}});
   return point;
 }
 
-/// The nearest vector that makes no acute angle with any of some directions (C. Hildreth, "A
+/// Finds the nearest vector that makes no acute angle with any of some directions (C. Hildreth, "A
 /// quadratic programming procedure", Naval Research Logistics Quarterly 4 (1957)).
 Vector3d nearest_in_polar_cone(const Vector3d& v, const std::vector<Vector3d>& directions) {
   constexpr int kSweeps = 50;
@@ -47,7 +47,7 @@ Vector3d nearest_in_polar_cone(const Vector3d& v, const std::vector<Vector3d>& d
   return nearest;
 }
 
-/// Where a body touches along a new normal.
+/// Finds the point at which a body touches along a new normal.
 Vector3d point_towards(const SimBody& body, const RoundFeature& round, const Pose& pose,
                        const Vector3d& before, const Vector3d& outwards_before,
                        const Vector3d& outwards) {
@@ -77,8 +77,8 @@ bool SeamFinder::level(ManifoldPoint& touch) {
   return first || second;
 }
 
-/// Bodies other than the pair around a point: fixed and scripted ones, and members that touch one
-/// of the pair.
+/// Lists the bodies other than the pair around a point: fixed and scripted ones, and members that
+/// touch one of the pair.
 std::vector<std::size_t> SeamFinder::bodies_near(const Vector3d& point,
                                                  const BodyPair& pair) const {
   const Vector3d reach = Vector3d::Constant(state_.model.distances.band);
@@ -126,8 +126,8 @@ void SeamFinder::add_directions(std::size_t body, const Feature& feature,
   }
 }
 
-/// Adds the directions from a point into the surface of a body, if that is near: from its edges and
-/// corners there, or else from its faces.
+/// Adds the directions from a point into the surface of a body, if that is near. They come from its
+/// edges and corners there, or else from its faces.
 bool SeamFinder::add_surface_near(std::size_t body, const Vector3d& point,
                                   std::vector<Vector3d>& directions) {
   const Pose pose = pose_of_(body);
@@ -172,7 +172,7 @@ bool SeamFinder::lean(ManifoldPoint& touch, std::size_t side) {
     return std::abs(direction.dot(before)) <= kTiltOfFace;
   });
   if (within_face >= (feature.type == FeatureType::edge ? 1 : 2)) {
-    return false;  // It has the normal of a face, which what is flush with the face has, too.
+    return false;  // Its normal is that of a face, and a flush face has the same.
   }
   for (const std::size_t beside : bodies_near(point, touch.bodies)) {
     std::vector<Vector3d> both = directions;
@@ -188,8 +188,8 @@ bool SeamFinder::lean(ManifoldPoint& touch, std::size_t side) {
   return (outwards - before).norm() > kTiltOfSeam && take_normal(outwards, side, touch);
 }
 
-/// Gives the touch a normal of one of its bodies. Whether the other one allows it, and there is a
-/// gap along it.
+/// Gives the touch a normal of one of its bodies. Returns whether the other one permits it, and
+/// there is a gap along it.
 bool SeamFinder::take_normal(const Vector3d& outwards, std::size_t side, ManifoldPoint& touch) {
   const std::size_t other = 1 - side;
   const std::size_t body = touch.bodies[other];

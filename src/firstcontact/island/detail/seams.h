@@ -21,19 +21,21 @@ struct IslandState;
 
 /// Turns normals at edges that another body continues.
 ///
-/// What slides at the contact distance over two slabs side by side comes near the edge of the
-/// second one, with a normal that leans back. No surface is there that could push so: together the
-/// slabs have a flat one. A normal must be one that both surfaces allow: it lies in the normal cone
-/// of the body that is touched, and in that of each body whose surface is within the band of the
-/// contact. The nearest such normal takes the place of the one found. Where there is none, as in a
-/// corner, the contact stays as it is. So it does where its gap along the new normal would be too
-/// small: then the second slab is a step.
+/// Take a body that slides at the contact distance over two slabs side by side. Near the edge of
+/// the second one the normal leans back. No surface is there that could push so: together the slabs
+/// have a flat one. A normal must be one that both surfaces permit. It lies in the normal cone of
+/// the touched body, and in that of each body whose surface is within the band of the contact. The
+/// nearest such normal replaces the one found. Where there is none, as in a corner, the contact
+/// stays as it is. It also stays where its gap along the new normal would be too small: then the
+/// second slab is a step.
 class SeamFinder {
  public:
-  /// @param pose_of  where a body is
+  /// Prepares the finder.
+  ///
+  /// @param pose_of  the pose of a body
   SeamFinder(IslandState& state, Workspace& workspace, std::function<Pose(std::size_t)> pose_of);
 
-  /// Returns whether the touch was changed.
+  /// Turns the normal of a touch. Returns whether it changed.
   bool level(ManifoldPoint& touch);
 
  private:
@@ -49,7 +51,8 @@ class SeamFinder {
   IslandState& state_;
   Workspace& workspace_;
   std::function<Pose(std::size_t)> pose_of_;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> touching_ = {};  // Members.
+  // Members that touch each body.
+  std::unordered_map<std::size_t, std::vector<std::size_t>> touching_ = {};
   std::vector<Contact> contacts_ = {};
 };
 

@@ -61,7 +61,7 @@ class Sequence {
   }
 
  private:
-  /// Leaves only pairs that may bounce in the sequence.
+  /// Keeps only pairs that may bounce in the sequence.
   void part_by_law() {
     std::erase_if(pairs_, [&](const Pair& pair) {
       const bool holds = state_.model.laws.restitution(pair.bodies) == 0.0;
@@ -111,7 +111,7 @@ class Sequence {
     take(project_simultaneous_impact(state_, alone, restitution), contacts);
   }
 
-  /// What closes still is held by all contacts.
+  /// Lets all contacts hold the pairs that still close.
   ContactSolution hold_all() {
     for (ContactPoint& contact : problem_.contacts) {
       contact.guess.setZero();
@@ -147,9 +147,9 @@ class Sequence {
   }
 
   const IslandState& state_;
-  ContactProblem problem_;         // With the velocities of now.
-  std::vector<Pair> pairs_;        // That may bounce.
-  std::vector<std::size_t> held_;  // Contacts of all others.
+  ContactProblem problem_;         // With the present velocities.
+  std::vector<Pair> pairs_;        // Pairs that may bounce.
+  std::vector<std::size_t> held_;  // Contacts of all other pairs.
   std::vector<Vector3d> impulses_;
   std::vector<double> drives_;
   std::vector<double> ties_;

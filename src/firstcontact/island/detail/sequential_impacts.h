@@ -1,5 +1,5 @@
 /// @file
-/// Impacts at the same time, one pair after the other.
+/// Impacts at the same time, one pair after another.
 
 #pragma once
 
@@ -12,16 +12,19 @@ namespace firstcontact::detail {
 
 struct IslandState;
 
-/// Velocities after an impact in which pairs answer one after the other: the pair that closes
-/// fastest is next, by project_impact(), until no pair closes faster than an impact that does not
-/// bounce, or very slowly. What still closes then is held by all contacts together. Pairs without
-/// restitution have no turn: they hold in each answer, as if they were one body.
+/// Computes the velocities after an impact in which pairs answer one after another.
+///
+/// The pair that closes fastest is next, by project_impact(). This goes on until no pair closes
+/// faster than an impact that does not bounce, or faster than a very small speed. Then all contacts
+/// together hold the pairs that still close. Pairs without restitution have no turn: they hold in
+/// each answer, as if they were one body.
 ///
 /// Each answer keeps momentum and adds no energy, so the sum does neither. A row of equal balls in
-/// touch passes a hit on to its last one (Newton's cradle; V. Acary, B. Brogliato, "Concerning the
-/// multiple impacts modelling in the Newton's cradle", INRIA report 5064 (2003)).
+/// touch passes an impact on to its last ball (Newton's cradle; V. Acary, B. Brogliato, "Concerning
+/// the multiple impacts modelling in the Newton's cradle", INRIA report 5064 (2003)).
 ///
-/// The number of answers is bounded, by so many for each pair: pairs may pass a hit to and fro.
+/// The number of answers is bounded, by a number for each pair: pairs may pass an impact to and
+/// fro.
 ///
 /// @param pairs  the bodies of each contact
 [[nodiscard]] ContactSolution project_sequential_impacts(const IslandState& state,

@@ -20,7 +20,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// [m/s]  No point of the body is faster.
+/// [m/s]  Bounds the speed of any point of the body.
 double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w) {
   return v.norm() + body.reach * w.norm();
 }
@@ -50,7 +50,7 @@ bool changes(const TimedForce& force, const StepStart& start) {
   return is_within(force.from) || is_within(force.to);
 }
 
-/// Whether anything scripted that moves in the step may get near the body.
+/// Whether any scripted body that moves in the step may get near the body.
 bool is_disturbed(const SimulationModel& model, const StepStart& start, const Obstacles& around,
                   std::size_t body) {
   const double reach = model.distances.near + model.laws.greatest_margin();
@@ -69,7 +69,7 @@ bool falls_asleep(const IslandState& state, const Plan& plan,
   const double seeming = (state.ties.empty() ? 1.0 : kRestOfTied) *
                          std::min(kRestOfExactTolerance * exact_tolerance(state),
                                   kRestOfGravity * state.model.gravity.norm() * state.start.h);
-  // What rests bears in all steps what it bears in this one, which has to be its weight alone.
+  // A sleeping body bears in all steps the load of this one, which has to be its weight alone.
   if (!state.start.begins_step || is_pulled(state.model, state.start, state.members) ||
       !state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
@@ -105,7 +105,7 @@ IslandTrack track_asleep(const StepContext& step, std::vector<std::size_t> membe
     track.pieces.push_back({{step.start.h, state.X_WB, {}, state, state}});
   }
   track.reached = step.start.h;
-  // Pairs that come to rest are not too near, and are held to half of their gap at least.
+  // Pairs that fall asleep are not too near, and are held to half of their gap at least.
   track.clearance = 0.5 * step.model.distances.pushed;
   track.rests = Rest::goes_on;
   return track;

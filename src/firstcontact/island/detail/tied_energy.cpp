@@ -17,10 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Energies of an island.
 struct Energy {
   double kinetic = 0.0;    // [J]
   double potential = 0.0;  // [J]
-  double slack = 0.0;      // [J]  What a contact distance of height is.
+  double slack = 0.0;      // [J]  Energy of a height of one contact distance.
 };
 
 /// Whether only gravity acts, and joints whose other ends rest.

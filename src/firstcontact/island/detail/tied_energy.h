@@ -1,5 +1,5 @@
 /// @file
-/// The energy of an island whose ties alone act, over a plan.
+/// The energy over a plan of an island on which only ties act.
 
 #pragma once
 
@@ -12,8 +12,8 @@ namespace firstcontact::detail {
 struct IslandState;
 struct Plan;
 
-/// Whether an island keeps its energy over a plan as nearly as plans are followed at all. True
-/// where anything but gravity and joints of ties acts: then it need not.
+/// Whether an island keeps its energy over a plan, to the precision of plans. True where anything
+/// but gravity and joints of ties acts, as its energy may change then.
 ///
 /// Joints take no energy. Where a loop gets near a singular position, forces turn much within a
 /// plan and would give or take some.
