@@ -23,40 +23,45 @@ using LinearEdge = std::array<LinearPoint, 2>;  ///< Ends; may coincide.
 struct LinearContactOptions {
   double margin = 0.0;         ///< [m]  Closer than this counts as contact; >= 0.
   double tolerance = 1e-6;     ///< [m]  A contact is no farther than margin + tolerance; > 0.
-  int maximum_steps = 10'000;  ///< Spent: `undecided`.
+  int maximum_steps = 10'000;  ///< Beyond this many steps the test is `undecided`.
 };
 
 enum class LinearVerdict {
   free,       ///< Proven: farther apart than the margin for all t in [0, 1].
   contact,    ///< Proven: so before t; at t no farther than margin + tolerance.
-  undecided,  ///< Proven so before t; nothing known after it: steps spent.
+  undecided,  ///< Proven so before t; nothing known after it: the steps were spent.
 };
 
 struct LinearContact {
   LinearVerdict verdict = LinearVerdict::undecided;
-  double t = 0.0;  ///< [-]  1 when free.
-  /// [m]  Holds in place of the asked one. Larger where features move farther than that between two
-  /// neighbouring doubles of t, or coordinates are so large that no arithmetic here resolves it.
+  double t = 0.0;  ///< [-]  Proven: no contact before; 1 when free.
+  /// [m]  The tolerance that holds in place of the one asked for.
+  ///
+  /// It is larger where features move farther than that between two neighbouring doubles of t. It
+  /// is larger, too, where coordinates are so large that no arithmetic here resolves the one asked
+  /// for.
   double tolerance_used = 0.0;
   int steps = 0;
 };
 
 /// Finds the first time at which a vertex and a face come within the margin.
 ///
-/// Along a fixed direction n the distance of every corner of one feature from every corner of the
-/// other is linear in t: it is positive up to the earliest of its zeros, and so the features are
-/// apart for that long. n is the direction between the closest points, or the one that the features
-/// define where these nearly coincide; it may also turn with them, as in advance_deforming(), so
-/// that sliding does not stall. Steps of that kind never pass a contact, whatever the
-/// configuration: nothing is divided by a determinant, no root of the coplanarity cubic is sought
-/// (its degenerate cases are those of B. Wang, Z. Ferguson, T. Schneider, X. Jiang, M. Attene, D.
-/// Panozzo, "A large-scale benchmark and an inclusion-based algorithm for continuous collision
-/// detection", ACM Trans. Graph. 40, 2021). Derivation: ours; the steps are those of conservative
-/// advancement (B. Mirtich, 1996) with the exact bound that linear motion allows.
+/// Along a fixed direction n each corner of one feature has a distance from each corner of the
+/// other that is linear in t. The features are apart up to the earliest zero of these distances. n
+/// is the direction between the closest points. Where these nearly coincide, it is the direction
+/// that the features define. n may also turn with the features, as in advance_deforming(), so that
+/// sliding does not stall.
 ///
-/// Holds in the arithmetic as executed, also far from the origin: only differences of coordinates
-/// are rounded. Where doubles cannot decide, the test is repeated in double-double
-/// (precise_linear_contact.h): a gap of 1e-18 of the size is distinguished from none.
+/// Steps of that kind never pass a contact, whatever the configuration. Nothing is divided by a
+/// determinant, and no root of the coplanarity cubic is sought. The cubic's degenerate cases are
+/// those of B. Wang, Z. Ferguson, T. Schneider, X. Jiang, M. Attene, D. Panozzo, "A large-scale
+/// benchmark and an inclusion-based algorithm for continuous collision detection", ACM Trans.
+/// Graph. 40, 2021. Derivation: ours. The steps are those of conservative advancement (B. Mirtich,
+/// 1996) with the exact bound that linear motion allows.
+///
+/// The claims hold in the arithmetic as executed, also far from the origin: only differences of
+/// coordinates are rounded. Where doubles cannot decide, the test is repeated in double-double
+/// (precise_linear_contact.h). It distinguishes a gap of 1e-18 of the size from none.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range
 [[nodiscard]] FIRSTCONTACT_API LinearContact linear_vertex_face_contact(

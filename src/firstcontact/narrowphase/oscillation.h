@@ -30,14 +30,14 @@ inline AxialParts axial_parts(const Eigen::Vector3d& v, const Eigen::Vector3d& a
 /// Bounds on the derivatives of U . V and U x V, where U turns about u_A at the rate w_A and V
 /// about u_B at the rate w_B. They hold at every time, for any number of turns.
 ///
-/// Derivation: U(t) = U_|| + Re(M e^{i w_A t}) with M = |U_across| (e - i e'), e, e' and u_A
-/// orthonormal, likewise V with N. In the product of the turning parts,
+/// Derivation: U(t) = U_|| + Re(M e^{i w_A t}) with M = |U_across| (e - i e'). The vectors e, e'
+/// and u_A are orthonormal. V is written likewise, with N. In the product of the turning parts,
 ///   Re(M e^{i a}) Re(N e^{i b}) = 1/2 Re(M N e^{i (a + b)}) + 1/2 Re(M conj(N) e^{i (a - b)}),
 /// the scalar products are |M . N| = |U||V| (1 - c) and |M . conj(N)| = |U||V| (1 + c) with
-/// c = u_A . u_B; the lengths of the vector products follow from Lagrange's identity as
-/// |U||V| sqrt(4 - (1 + c)^2) and |U||V| sqrt(4 - (1 - c)^2). A part along an axis stands still,
-/// and its scalar product with what turns about the other axis has the amplitude |u_A x u_B|. Each
-/// derivative multiplies a term by its frequency.
+/// c = u_A . u_B. The lengths of the vector products follow from Lagrange's identity. They are
+/// |U||V| sqrt(4 - (1 + c)^2) and |U||V| sqrt(4 - (1 - c)^2). A part along an axis stands still.
+/// Its scalar product with a part that turns about the other axis has the amplitude |u_A x u_B|.
+/// Each derivative multiplies a term by its frequency.
 class Oscillation {
  public:
   Oscillation() = default;
@@ -84,9 +84,9 @@ class Oscillation {
   }
 
  private:
-  static constexpr double kSlack = 0x1p-48;  // For the rounding of the axes.
+  static constexpr double kSlack = 0x1p-48;  // Covers the rounding of the axes.
 
-  /// Powers of the rates, and what the products of turning parts make of them.
+  /// Powers of the rates, and the factors for products of turning parts that follow from them.
   struct Order {
     double A = 0.0;
     double B = 0.0;

@@ -36,13 +36,13 @@ struct ClosestFeatures {
 
 /// Finds the closest points of two triangles.
 ///
-/// They always lie on the triangles: `distance` is an upper bound of the true distance up to a few
-/// units in the last place of the coordinates. So it is for every shape of the triangles: needles,
-/// points, parallel, coplanar and piercing ones.
+/// Both points always lie on the triangles. So `distance` is an upper bound of the true distance,
+/// up to a few units in the last place of the coordinates. That holds for every shape of the
+/// triangles: needles, points, parallel, coplanar and piercing ones.
 ///
-/// Least over the nine pairs of edges and the six projections of a corner into a face; a pair that
-/// none of these decides pierces, which is tested by itself. Coordinates and sizes between 1e-70
-/// and 1e70 are meant: beyond, products overflow, and `distance` may be too large.
+/// Method: the least distance over the nine pairs of edges and the six projections of a corner into
+/// a face. Piercing is tested by itself. Coordinates and sizes are meant to be between 1e-70 and
+/// 1e70. Beyond, products overflow, and `distance` may be too large.
 FIRSTCONTACT_API ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B);
 
 /// Up to 21 feature pairs: nine of edges, six of a corner and a face, six piercings.
@@ -51,12 +51,12 @@ struct FeaturePairs {
   std::size_t count = 0;
 };
 
-/// Finds all elementary pairs within `band` [m]; of those with the same features the nearest.
+/// Finds all elementary pairs within `band` [m]; for the same two features the nearest pair.
 ///
 /// Each has the features in whose interiors its closest points lie.
 ///
-/// @param features_A,features_B  which corners (bits 0 to 2) and edges (bits 3 to 5) are asked; all
-///                               faces are
+/// @param features_A,features_B  bits of the corners (0 to 2) and edges (3 to 5) that may be part
+///                               of a pair; faces always may
 FIRSTCONTACT_API FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B,
                                                    double band, unsigned features_A = 0x3f,
                                                    unsigned features_B = 0x3f);

@@ -13,9 +13,10 @@
 
 namespace firstcontact {
 
+/// The kind of a feature.
 enum class FeatureType { vertex, edge, face };
 
-/// Its words in files and in Python, in this order.
+/// The words of FeatureType in files and in Python, in this order.
 inline constexpr std::array<const char*, 3> kFeatureTypeWords{"vertex", "edge", "face"};
 
 /// A feature of a shape: a vertex, a unique edge or a triangle, by its index in the shape.
@@ -33,9 +34,10 @@ struct Contact {
   Feature feature_B;
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< [m]  Closest point on A's thickened surface.
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Closest point on B's thickened surface.
-  /// [-]  Unit, from A to B. Where the closest points coincide: the face's normal, or the
-  /// normalised product of the two edges, pointing against the relative motion of B; null where
-  /// no feature normal decides.
+  /// [-]  Unit, from A to B.
+  ///
+  /// Where the closest points coincide, it is the face's normal or the normalised product of the
+  /// two edges, and points against the relative motion of B. Null where no feature normal decides.
   std::optional<Eigen::Vector3d> n_AB_W;
   double distance = 0.0;  ///< [m]  Negative: depth of thickened features.
   /// [m per step]  Velocity of B's point relative to A's along the normal; negative when closing;
@@ -48,7 +50,7 @@ struct Contact {
 /// The number of feature pairs within the contact band, those included that are not listed.
 struct ContactCount {
   std::uint64_t at_least = 0;
-  bool is_exact = false;  ///< Not where only the first was asked for, or counting ended early.
+  bool is_exact = false;  ///< False where only the first was asked for, or counting ended early.
 
   ContactCount& operator+=(const ContactCount& other) {
     at_least += other.at_least;

@@ -30,18 +30,19 @@ struct MovingShape {
 struct WorkBudget {
   std::uint64_t steps =
       std::numeric_limits<std::uint64_t>::max();  ///< Node groups + feature steps.
-  std::size_t memory = std::size_t{1} << 30;      ///< [byte]  Of the search queue.
+  std::size_t memory = std::size_t{1} << 30;      ///< [byte]  Size of the search queue.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::stop_token stop;
 };
 
+/// The meaning of a start within margin + tolerance.
 enum class StartContacts {
   report,  ///< A start within margin + tolerance is `contact_at_start`.
   /// A start there, but apart, holds the two bodies to half of their start distance d0.
   ///
   /// The half, to rounding, takes the place of the margin: d(t) > d0 / 2 before a contact. A
-  /// contact is within margin + tolerance as ever. That holds for all features of both bodies,
-  /// whichever started near: parts that started farther apart than the margin are held to d0 / 2,
+  /// contact is still within margin + tolerance. That holds for all features of both bodies,
+  /// wherever they started: features that started farther apart than the margin are held to d0 / 2,
   /// too. So sliding, rolling and leaving go on however the surfaces are cut into triangles. As d0
   /// is above 0, nothing passes through anything. A start at distance 0 is `contact_at_start`.
   keep_half,
@@ -56,16 +57,18 @@ struct ContactState {
   Kind kind = Kind::nearest;
   std::size_t most = kUsual;  ///< No more are listed.
 
-  static const ContactState none;   ///< Only the time is asked.
+  static const ContactState none;   ///< None: only the time is computed.
   static const ContactState first;  ///< The feature pair that decided.
-  static const ContactState all;    ///< Every one, however many there are.
+  static const ContactState all;    ///< All feature pairs, however many there are.
 
   /// Lists all as long as there are no more than `most`, else the nearest and some of every region.
   ///
-  /// Half of those listed, at most, are the nearest of each cube of a grid around the bodies, whose
+  /// At most half of the listed pairs are the nearest in each cube of a grid around the bodies. The
   /// cubes are as small as this number allows. The others are the nearest of all
-  /// (ContactSelection). Where there are more than 262,144 and `most`, those far from being the
-  /// nearest are neither counted nor chosen any more beyond that number.
+  /// (ContactSelection).
+  ///
+  /// Where there are more than `most` and more than 262,144 pairs, the search skips pairs that are
+  /// far from being the nearest. It neither counts nor chooses them beyond that number.
   ///
   /// @param most  >= 1
   static constexpr ContactState nearest(std::size_t most = kUsual) { return {Kind::nearest, most}; }
@@ -77,13 +80,14 @@ inline constexpr ContactState ContactState::none{Kind::none, 0};
 inline constexpr ContactState ContactState::first{Kind::first, 1};
 inline constexpr ContactState ContactState::all{Kind::all, std::numeric_limits<std::size_t>::max()};
 
+/// The options of a first contact.
 struct FirstContactOptions {
   double margin = 0.0;      ///< [m]  Closer than this counts as contact; >= 0.
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance; > 0.
   StartContacts start_contacts = StartContacts::report;
   ContactState contacts = ContactState::nearest();
   double contact_band = 0.0;  ///< [m]  Reports pairs within margin + tolerance + band; >= 0.
-  WorkBudget budget = {};     ///< Spending it gives `undecided`, never a guess.
+  WorkBudget budget = {};     ///< Beyond this much work the verdict is `undecided`, never a guess.
 };
 
 /// Work done, for budgets and benchmarks.
@@ -102,9 +106,10 @@ struct WorkCount {
   }
 };
 
+/// The outcome, the contacts at its time, and the work.
 struct FirstContactResult : Outcome {
-  std::vector<Contact> contacts;  ///< At t, sorted by features; those that were asked for.
-  ContactCount contact_count;     ///< Of them, those included that are not listed.
+  std::vector<Contact> contacts;  ///< The contacts at t that were asked for, sorted by features.
+  ContactCount contact_count;     ///< Number of contacts at t, those included that are not listed.
   WorkCount work;
 };
 
@@ -124,7 +129,7 @@ struct FirstContactResult : Outcome {
 first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
               const FirstContactOptions& options = {});
 
-/// Finds the first contact in the memory of `result`: with a warm workspace and result nothing is
+/// Finds the first contact in the memory of `result`. With a warm workspace and result nothing is
 /// allocated.
 FIRSTCONTACT_API void first_contact(const MovingShape& A, const MovingShape& B,
                                     Workspace& workspace, const FirstContactOptions& options,

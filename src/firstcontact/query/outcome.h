@@ -11,6 +11,7 @@
 
 namespace firstcontact {
 
+/// The answer to a question about contact.
 enum class Verdict {
   free,              ///< Proven: farther apart than the margin on all of [0, 1].
   contact,           ///< Proven: so before t; at t no farther than margin + tolerance.
@@ -18,10 +19,12 @@ enum class Verdict {
   undecided,         ///< Proven so before t, nothing known after it; see `reason`.
 };
 
+/// The reason why a search ended undecided.
 enum class UndecidedReason { none, work, deadline, memory, precision, cancelled };
 
 /// The word of a verdict in result files, such as "contact_at_start".
 [[nodiscard]] FIRSTCONTACT_API const char* to_string(Verdict verdict);
+/// The word of a reason in result files, such as "deadline".
 [[nodiscard]] FIRSTCONTACT_API const char* to_string(UndecidedReason reason);
 
 /// Whether a contact was found, at the start or later.
@@ -39,12 +42,12 @@ struct Outcome {
   double clearance = 0.0;  ///< [m]  Proven lower bound of the distance before t.
   double tolerance_used =
       0.0;  ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
-  double enclosure_error = 0.0;  ///< [m]  Of both shapes: adds to the tolerance of a contact.
+  double enclosure_error = 0.0;  ///< [m]  Sum of both shapes: adds to the tolerance of a contact.
 };
 
 /// The outcome where no pair is tested: free, infinitely far apart.
 ///
-/// @param tolerance  [m]  that is asked
+/// @param tolerance  [m]  that was asked for
 [[nodiscard]] inline Outcome outcome_of_no_pair(double tolerance) {
   return {.verdict = Verdict::free,
           .t = 1.0,
@@ -52,8 +55,10 @@ struct Outcome {
           .tolerance_used = tolerance};
 }
 
-/// Whether `a` decides rather than `b` what holds of both: it ends what is proven earlier, or it is
-/// a contact at the same time. That holds for both, as neither touches before it.
+/// Whether `a` rather than `b` decides the outcome of both.
+///
+/// That is the one that ends what is proven earlier, or a contact at the same time. Its claim holds
+/// for both, as neither touches before that time.
 [[nodiscard]] inline bool decides_before(const Outcome& a, const Outcome& b) {
   if (a.verdict == Verdict::free || b.verdict == Verdict::free) {
     return a.verdict != Verdict::free && b.verdict == Verdict::free;

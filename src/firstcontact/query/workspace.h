@@ -13,8 +13,9 @@ namespace detail {
 struct WorkspaceData;
 }
 
-/// Scratch memory that queries reuse, so that a warm query allocates nothing. One per thread; it
-/// carries no state from one query to the next.
+/// Scratch memory that queries reuse, so that a warm query allocates nothing.
+///
+/// Each thread needs its own. It carries no state from one query to the next.
 class FIRSTCONTACT_API Workspace {
  public:
   Workspace();
