@@ -22,18 +22,20 @@ struct FIRSTCONTACT_API CoordinateSegment {
   double t_begin = 0.0;
   double t_end = 1.0;
   std::array<DoubleDouble, kCoefficients> a = {};  ///< [rad or m]
-  std::size_t count = 1;                           ///< Coefficients in use; the others are 0.
-  double error = 0.0;                              ///< [rad or m]
+  std::size_t count = 1;  ///< Number of coefficients in use; the others are 0.
+  double error = 0.0;  ///< [rad or m]  Bound of the distance of the exact coefficients, summed over
+                       ///< j.
 
   /// Value and derivatives at a time of the piece.
   struct State {
     DoubleDouble value;         ///< [rad or m]
     double rate = 0.0;          ///< [per step]
     double acceleration = 0.0;  ///< [per step^2]
-    double value_error = 0.0;   ///< [rad or m]  How far each may be from exact.
+    double value_error = 0.0;   ///< [rad or m]  Bound of the distance from the exact value.
     double rate_error = 0.0;
     double acceleration_error = 0.0;
   };
+  /// The value and the derivatives at a time of the piece.
   [[nodiscard]] State state(double t) const;
 
   /// Upper bounds of the sizes of the derivatives over a window of time.
@@ -44,9 +46,9 @@ struct FIRSTCONTACT_API CoordinateSegment {
   };
   /// Bounds the derivatives over a window of the piece.
   ///
-  /// Derivation: with b_j the coefficients about the window's middle and r its half width, the k-th
-  /// derivative is at most the sum over j >= k of j! / (j - k)! |b_j| r^(j - k). This exceeds its
-  /// greatest size by terms of r only.
+  /// Derivation: b_j are the coefficients about the window's middle, and r is its half width. Then
+  /// the k-th derivative is at most the sum over j >= k of j! / (j - k)! |b_j| r^(j - k). This
+  /// exceeds its greatest size by terms of r only.
   [[nodiscard]] Bounds bounds(double t_from, double t_to) const;
 
   /// [rad or m]  A bound of the size of every value of the piece.
@@ -65,18 +67,19 @@ enum class Turning {
   as_given,  ///< Through all angles between the two numbers.
   /// The way of at most half a turn.
   ///
-  /// Positions count up to whole turns, which are taken off the path from there on, so that it does
+  /// Positions count up to whole turns. The path drops these turns from there on, so that it does
   /// not jump. Half a turn, as doubles have it, goes as given.
   shortest,
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of Turning in files and in Python, in this order.
 inline constexpr std::array<const char*, 2> kTurningWords{"long", "short"};
 
 /// [rad]  The way of Turning::shortest from one position to another, to the nearest double.
 [[nodiscard]] FIRSTCONTACT_API double shortest_way(double from, double to);
 
-/// One coordinate over the step, t in [0, 1]. Rests before the first time and after the last.
+/// One coordinate over the step, t in [0, 1]. It rests before the first time and after the last.
+///
 /// The exact path is the real-number function that the doubles below define.
 ///
 /// All factories throw std::invalid_argument on NaN, infinities, sizes beyond 1e8, wrong counts,
@@ -110,7 +113,7 @@ class FIRSTCONTACT_API CoordinatePath {
   /// Runs on given polynomials of degree 7 at most: piece k from times[k] to times[k + 1].
   ///
   ///   q(t) = sum over j of coefficients[k][j] (t - times[k])^j
-  /// Where pieces do not meet, the coordinate would jump: refused beyond 1e-6.
+  /// Neighbouring pieces have to meet within 1e-6, or the coordinate would jump.
   ///
   /// @param coefficients  [rad or m per step^j]
   static CoordinatePath polynomials(std::span<const double> times,

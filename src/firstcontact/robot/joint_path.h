@@ -20,8 +20,9 @@
 
 namespace firstcontact {
 
-/// A child link L at one instant, all in the frame P of its parent: it turns about a pivot Q that
-/// moves. Errors bound the distance from the exact motion.
+/// A child link L at one instant, all in the frame P of its parent.
+///
+/// The link turns about a pivot Q that moves. Errors bound the distance from the exact motion.
 struct JointState {
   Eigen::Matrix3d R_PL;       ///< Each column within 24 2^-53 + angle_error.
   DoubleDoubleVector3 p_PQ;   ///< [m]  Within position_error + 2^-90 of its size.
@@ -29,7 +30,7 @@ struct JointState {
   Eigen::Vector3d axis;       ///< [-]  Within 2^-52.
   double rate = 0.0;          ///< [rad per step]    About the axis.
   double acceleration = 0.0;  ///< [rad per step^2]  About the axis.
-  bool slides = false;        ///< Else the pivot rests.
+  bool slides = false;        ///< Whether the pivot moves; else it rests.
   Eigen::Vector3d pivot_velocity = Eigen::Vector3d::Zero();      ///< [m per step]
   Eigen::Vector3d pivot_acceleration = Eigen::Vector3d::Zero();  ///< [m per step^2]
   double angle_error = 0.0;
@@ -48,8 +49,8 @@ struct JointBounds {
 
 /// The transform X_PL(t) of a joint over one smooth piece of time.
 ///
-/// It is X_PJ, then slides along fixed directions, then a turn about a fixed axis, then a fixed
-/// transform; or X_PJ, then a piece of a Motion.
+/// There are two kinds. One is X_PJ, then slides along fixed directions, a turn about a fixed axis
+/// and a fixed transform. The other is X_PJ, then a piece of a Motion.
 class FIRSTCONTACT_API JointPath {
  public:
   struct Slide {
@@ -80,16 +81,18 @@ class FIRSTCONTACT_API JointPath {
   /// [m]  A place in P near the joint's pivot, rounded.
   [[nodiscard]] const Eigen::Vector3d& anchor() const { return anchor_; }
 
-  /// A number that no other path has but copies of this one.
+  /// A number that only this path and copies of it have.
   [[nodiscard]] std::uint64_t id() const { return id_; }
 
+  /// The state of the child at a time of the piece.
   [[nodiscard]] JointState state(double t) const;
+  /// Bounds the derivatives over a window of the piece.
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 
   /// The state of a joint that never changes; null for any other.
   [[nodiscard]] const JointState* rest() const { return rest_ ? &*rest_ : nullptr; }
 
-  /// Whether it turns about one axis, else about any through the child's origin.
+  /// Whether the joint turns about one axis, else about any through the child's origin.
   [[nodiscard]] bool has_axis() const { return std::holds_alternative<Polynomial>(kind_); }
 
  private:

@@ -13,9 +13,10 @@
 
 namespace firstcontact {
 
+/// The limit of a joint that a motion leaves.
 enum class JointLimit { lower_position, upper_position, velocity };
 
-/// Its words in files and in Python, in this order.
+/// The words of JointLimit in files and in Python, in this order.
 inline constexpr std::array<const char*, 3> kJointLimitWords{"lower_position", "upper_position",
                                                              "velocity"};
 
@@ -24,8 +25,8 @@ struct LimitViolation {
   std::size_t joint = 0;
   JointLimit what = JointLimit::lower_position;
   double limit = 0.0;     ///< As the model has it.
-  double excess = 0.0;    ///< The greatest way beyond the limit, to the tolerance.
-  double t_excess = 0.0;  ///< [-]  Where it is attained.
+  double excess = 0.0;    ///< The most by which the motion goes beyond the limit, to the tolerance.
+  double t_excess = 0.0;  ///< [-]  The time at which the excess is attained.
   /// The windows of time with the violation, in order, at least one.
   ///
   /// Outside of them the coordinate is proven to exceed the limit by no more than the tolerance. In

@@ -18,7 +18,8 @@ namespace firstcontact {
 /// A mesh in a file of its own.
 struct MeshGeometry {
   std::filesystem::path path;                       ///< As opened.
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< [-]  Of each axis; not 0. < 0 mirrors.
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< [-]  Factor of each axis; not 0. < 0
+                                                    ///< mirrors.
 };
 
 /// A box; sizes of 0 leave a rectangle, a segment or a point, which touch as well.
@@ -41,7 +42,7 @@ struct CylinderGeometry {
 /// A capsule about z.
 struct CapsuleGeometry {
   double radius = 0.0;  ///< [m]  >= 0.
-  double length = 0.0;  ///< [m]  >= 0.  Of the segment, without the caps.
+  double length = 0.0;  ///< [m]  >= 0.  Length of the segment, without the caps.
 };
 
 using GeometrySource =
@@ -52,7 +53,7 @@ struct LinkGeometry {
   std::string name;  ///< May be empty.
   Pose X_LG = {};
   GeometrySource source = {};
-  std::optional<Shape> shape = {};  ///< In G; none where it was not asked for.
+  std::optional<Shape> shape = {};  ///< The shape in G; none where it was not asked for.
 };
 
 }  // namespace firstcontact

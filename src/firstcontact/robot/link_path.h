@@ -34,7 +34,7 @@ struct LinkState {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m per step^2]
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();          ///< [rad per step]
   Eigen::Vector3d spin_rate = Eigen::Vector3d::Zero();     ///< [rad per step^2]
-  double velocity_error = 0.0;                             ///< How far each may be from exact.
+  double velocity_error = 0.0;  ///< [m per step]  Bound of the distance from the exact velocity.
   double acceleration_error = 0.0;
   double spin_error = 0.0;
   double spin_rate_error = 0.0;
@@ -53,12 +53,12 @@ struct RoundedBox {
   [[nodiscard]] double reach() const { return (half_extents.norm() + radius) * (1.0 + 0x1p-50); }
 };
 
-/// A bound of the way that any point of a box gains along n from the window's time t on.
+/// A bound of how far any point of a box gets along n from the window's time t on.
 ///
 /// In a time tau it is at most  speed tau + acceleration tau^2 / 2.
 struct DirectedBound {
   double speed = 0.0;         ///< [m per step]
-  double acceleration = 0.0;  ///< [m per step^2]  Of one sign or the other.
+  double acceleration = 0.0;  ///< [m per step^2]  May be negative.
 };
 
 /// The motion of a link at one time t, and bounds of it over a window around t.
@@ -80,14 +80,14 @@ class FIRSTCONTACT_API LinkWindow {
 
   /// The displacement along n, from t to t_to().
   ///
-  /// Derivation: a point P at offset e from the link's origin has velocity v + w x e and
-  /// acceleration a + al x e + w x (w x e), linear in e: their greatest values over a box are in
-  /// closed form. Taylor's theorem with |jerk| <= J gives
+  /// Derivation: a point P at offset e from the link's origin has the velocity v + w x e and the
+  /// acceleration a + al x e + w x (w x e). Both are linear in e, so their greatest values over a
+  /// box are in closed form. Taylor's theorem with |jerk| <= J gives
   ///   n . (p(t + tau) - p(t)) <= n . v_P tau + (n . a_P + J T / 3) tau^2 / 2 for tau <= T.
   /// Where the bounds of size over the window are less, they are taken.
   ///
   /// @param box  inside of the window's box
-  /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
+  /// @param n    [-]  in F; the bound holds for n as stored if its length is at most 1
   [[nodiscard]] DirectedBound displacement(const RoundedBox& box, const Eigen::Vector3d& n) const;
 
   /// [m per step]  A bound of the velocity along n of every point of the box, at every time of
@@ -105,11 +105,11 @@ class FIRSTCONTACT_API LinkWindow {
   double t_from_ = 0.0;
   double t_to_ = 0.0;
   LinkPose pose_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();      // Of the link's origin.
-  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // Of the link's origin.
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();      // Velocity of the link's origin.
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // Acceleration of the link's origin.
   Eigen::Matrix3d spin_ = Eigen::Matrix3d::Zero();          // [w]x
   Eigen::Matrix3d spin_rate_ = Eigen::Matrix3d::Zero();     // [al]x + [w]x [w]x
-  double speed_error_ = 0.0;                                // Of any point of the box at t.
+  double speed_error_ = 0.0;                                // Bound for any point of the box at t.
   double acceleration_error_ = 0.0;
   CoordinateSegment::Bounds bounds_;
   CoordinateSegment::Bounds per_metre_;
@@ -119,8 +119,9 @@ namespace detail {
 class ChainMemory;
 }
 
-/// Scratch memory: one per thread. It remembers the last places of joints, so that links that share
-/// joints, and questions that share times, share the work.
+/// Scratch memory that remembers the last places of joints; each thread needs its own.
+///
+/// So links that share joints share the work, and so do questions that share times.
 class FIRSTCONTACT_API LinkScratch {
  public:
   LinkScratch();
@@ -130,7 +131,7 @@ class FIRSTCONTACT_API LinkScratch {
 
   [[nodiscard]] detail::ChainMemory& memory() { return *memory_; }
 
-  /// Drops what it has of paths that are gone: what is looked for is found sooner.
+  /// Drops entries of paths that no longer exist, so that lookups take less time.
   void forget();
 
  private:
@@ -175,21 +176,21 @@ class FIRSTCONTACT_API LinkPath {
     LinkPose pose;       ///< At t.
     double speed = 0.0;  ///< [m per step]  No point of the box is faster in the window.
   };
-  /// A bound like the first of window(), whose derivation holds, at a fraction of the cost.
+  /// The pose, and a bound of speed with the derivation of window(), at a fraction of its cost.
   [[nodiscard]] Swept swept(double t, double t_from, double t_to, const RoundedBox& box,
                             LinkScratch& scratch) const;
 
   /// Bounds over [t_from, t_to], which contains t and lies in the piece.
   ///
-  /// Derivation: let rho be the greatest distance of the box from a joint's axis, w, e, f bounds
-  /// of the angle's derivatives and d1, d2, d3 of the pivot's. If v, a, j bound the derivatives of
-  /// the box's points as seen from the child, then as seen from the parent, as p = pivot +
-  /// Rot(axis, angle) y,
+  /// Derivation: rho is the greatest distance of the box from a joint's axis. w, e, f bound the
+  /// angle's derivatives, and d1, d2, d3 those of the pivot. v, a, j bound the derivatives of the
+  /// box's points as seen from the child. A point as seen from the parent is p = pivot + Rot(axis,
+  /// angle) y, so that there
   ///   v' <= d1 + v + w rho,
   ///   a' <= d2 + a + 2 w v + sqrt(e^2 + w^4) rho,
   ///   j' <= d3 + j + 3 w a + 3 sqrt(e^2 + w^4) v + sqrt((f + w^3)^2 + (3 w e)^2) rho,
-  /// from the tip to F. rho is the distance at t, and v T more; or the length of the chain beyond
-  /// the axis, which holds for any angles.
+  /// from the tip to F. rho is the distance at t, and v T more. Or it is the length of the chain
+  /// beyond the axis, which holds for any angles.
   ///
   /// @param box  around the link, or around as much of it as is of interest
   [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const RoundedBox& box,
@@ -200,10 +201,10 @@ class FIRSTCONTACT_API LinkPath {
   ///
   /// It holds at any time of [t_from, t_to].
   ///
-  /// Derivation: let e bound how far the box's points are from their places as seen from a child.
-  /// With the joint at its path they are as far as seen from the parent. An error of the angle
-  /// moves what is at a distance rho from the axis by 2 sin(error / 2) rho, one of the slide by as
-  /// much:
+  /// Derivation: e bounds how far the box's points are from their places as seen from a child. With
+  /// the joint at its path they are as far as seen from the parent. An error of the angle moves a
+  /// point at a distance rho from the axis by 2 sin(error / 2) rho. An error of the slide moves it
+  /// by as much as itself:
   ///   e' <= e + 2 sin(min(angle, pi) / 2) rho + distance,
   /// from the tip to F, with rho as in window().
   ///

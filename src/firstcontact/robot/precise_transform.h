@@ -13,7 +13,8 @@
 
 namespace firstcontact {
 
-/// X_AB: p_AP = position + R p_BP; every number within 2^-96 of its operands' sizes.
+/// The rigid transform X_AB: p_AP = position + R p_BP; numbers are within 2^-96 of their operands'
+/// sizes.
 struct PreciseTransform {
   std::array<DoubleDoubleVector3, 3> columns = {DoubleDoubleVector3(1.0, 0.0, 0.0),
                                                 DoubleDoubleVector3(0.0, 1.0, 0.0),
@@ -30,7 +31,7 @@ struct PreciseTransform {
   }
 };
 
-/// X_BA of X_AB, whose columns are orthogonal to 2^-90.
+/// The inverse X_BA of X_AB, whose columns are orthogonal to 2^-90.
 inline PreciseTransform inverse(const PreciseTransform& X_AB) {
   PreciseTransform X_BA;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,7 +43,7 @@ inline PreciseTransform inverse(const PreciseTransform& X_AB) {
   return X_BA;
 }
 
-/// The exact pose: the quaternion divided by its length.
+/// The exact transform of a pose: its quaternion is divided by its length.
 inline PreciseTransform precise(const Pose& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
   const DoubleDouble w = q.w();

@@ -21,7 +21,8 @@ namespace firstcontact {
 struct LinkInertia {
   double mass = 0.0;                                    ///< [kg]
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();       ///< [m]  Centre of mass.
-  Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  Axes of L; symmetric.
+  Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  About C, in axes of L;
+                                                        ///< symmetric.
   /// The defect of the values in their file, with its place; may be empty.
   ///
   /// Motions that are given do not depend on these values; simulations refuse the link.
@@ -85,12 +86,13 @@ struct Joint {
   std::string parent = {};
   std::string child = {};
   Pose X_PJ = {};
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< [-]  In J, any length but zero.
-  double pitch = 0.0;                               ///< [m/rad]  Of a screw.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< [-]  Direction in J, of any length but
+                                                    ///< zero.
+  double pitch = 0.0;                               ///< [m/rad]  Slide of a screw by its angle.
   JointLimits limits = {};
-  std::optional<Mimic> mimic = {};  ///< Of joints with one coordinate.
+  std::optional<Mimic> mimic = {};  ///< Only for joints with one coordinate.
   double damping = 0.0;             ///< [N m s/rad or N s/m]  >= 0.
-  double friction = 0.0;            ///< [N m or N]  >= 0; Coulomb's, of the joint itself.
+  double friction = 0.0;            ///< [N m or N]  >= 0; Coulomb's friction of the joint itself.
 };
 
 /// The number of coordinates of a joint; 0 for floating and ball joints, which take a pose.

@@ -22,7 +22,7 @@ namespace detail {
 struct JointFrame;
 }
 
-/// A tree of links. Links and joints are named by their index in the description.
+/// A tree of links, which are named by their index in the description, as joints are.
 ///
 /// Immutable and cheap to copy: copies share their data, also between threads.
 class FIRSTCONTACT_API RobotModel {
@@ -35,7 +35,7 @@ class FIRSTCONTACT_API RobotModel {
   [[nodiscard]] const std::string& name() const;
   [[nodiscard]] std::span<const Link> links() const;
   [[nodiscard]] std::span<const Joint> joints() const;
-  [[nodiscard]] std::size_t root() const;  ///< The link that hangs on no joint.
+  [[nodiscard]] std::size_t root() const;  ///< The link that no joint carries.
 
   [[nodiscard]] std::optional<std::size_t> find_link(std::string_view name) const;
   [[nodiscard]] std::optional<std::size_t> find_joint(std::string_view name) const;

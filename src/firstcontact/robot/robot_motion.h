@@ -53,8 +53,9 @@ class FIRSTCONTACT_API LinkMotion {
   std::vector<LinkPath> pieces_;
 };
 
-/// The motions of two links in the frame of their last common ancestor: what they share has
-/// cancelled.
+/// The motions of two links in the frame of their last common ancestor.
+///
+/// Motion that both share has cancelled.
 struct RelativeLinkMotion {
   LinkMotion A;
   LinkMotion B;
@@ -69,10 +70,10 @@ class FIRSTCONTACT_API RobotMotion {
   /// Gives a motion to each joint of a robot that moves, and to its base.
   ///
   /// @param joints  the motion of every joint that moves, by name; mimic joints follow theirs
-  /// @param base    of the root link in the world
+  /// @param base    the motion of the root link in the world
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it
-  ///         is fixed, mimics another, or is not of the robot; a joint that is not continuous is to
-  ///         take the shortest way
+  ///          is fixed, mimics another, or is not of the robot; a joint that is not continuous is
+  ///          to take the shortest way
   RobotMotion(RobotModel model, std::map<std::string, JointMotion> joints,
               Motion base = Motion::fixed());
 
@@ -90,6 +91,7 @@ class FIRSTCONTACT_API RobotMotion {
   /// The motion of a link in the frame of a link on which it hangs, or of itself.
   [[nodiscard]] LinkMotion link(std::size_t ancestor, std::size_t link) const;
 
+  /// The motions of two links in the frame of their last common ancestor.
   [[nodiscard]] RelativeLinkMotion relative(std::size_t A, std::size_t B) const;
 
   /// The path of a link in the world, in the piece that holds t, the earlier one at a break.
@@ -103,7 +105,8 @@ class FIRSTCONTACT_API RobotMotion {
   /// The path of a joint in the piece that holds t, the earlier one at a break; null for a fixed
   /// joint.
   ///
-  /// It starts at the link that moves before the joint. Valid as long as this.
+  /// The path starts at the link that moves before the joint. The pointer is valid as long as this
+  /// object.
   [[nodiscard]] const JointPath* joint_path(std::size_t joint, double t) const;
   /// The path of the base in the world, in the piece that holds t, the earlier one at a break.
   [[nodiscard]] const JointPath& base_path(double t) const;
@@ -118,6 +121,7 @@ class FIRSTCONTACT_API RobotMotion {
   /// The motion that was given for a joint; none for joints that are fixed or mimic others.
   [[nodiscard]] std::optional<JointMotion> given(std::size_t joint) const;
 
+  /// The motion that was given for the base.
   [[nodiscard]] const Motion& base() const;
 
  private:

@@ -11,14 +11,14 @@ struct Joint;
 
 /// The most by which a joint may be off its nominal motion, at any time.
 struct TrackingError {
-  double angle = 0.0;     ///< [rad]  Of a joint that turns; >= 0.
-  double distance = 0.0;  ///< [m]  Of a joint that slides; >= 0.
+  double angle = 0.0;     ///< [rad]  For a joint that turns; >= 0.
+  double distance = 0.0;  ///< [m]  For a joint that slides; >= 0.
 };
 
 /// The error of a joint of one coordinate, in the unit of the coordinate.
 ///
 /// @param coordinate  [rad or m]
-/// @throws std::invalid_argument if the joint has none or more
+/// @throws std::invalid_argument if the joint has no coordinate, or more than one
 [[nodiscard]] FIRSTCONTACT_API TrackingError tracking_error_of(const Joint& joint,
                                                                double coordinate);
 

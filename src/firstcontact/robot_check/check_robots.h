@@ -14,44 +14,52 @@
 
 namespace firstcontact {
 
+/// The options of a check of robots.
 struct RobotCheckOptions {
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance.
-  /// Whether a start within margin + tolerance is the answer. For keep_half a pair of members
-  /// starts where it begins to be tested: at 0, or where a body is put down. The start distance d0
-  /// is the least of all their geometries there. Not for robots with tracking errors: within these
-  /// they may start in contact.
+  /// The meaning of a start within margin + tolerance.
+  ///
+  /// With keep_half a pair of members starts where its test begins: at 0, or where a body is put
+  /// down. The start distance d0 is the least of all their geometries there. keep_half is not for
+  /// robots with tracking errors: within these they may start in contact.
   StartContacts start_contacts = StartContacts::report;
-  ContactState contacts = ContactState::nearest();  ///< Which are listed of a pair of members.
+  ContactState contacts = ContactState::nearest();  ///< The contacts that a pair of members lists.
   double contact_band = 0.0;  ///< [m]  Lists features within margin + tolerance + band; >= 0.
   WorkBudget budget = {};     ///< Steps and memory are those of one pair in one piece of time.
   int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
 
-  bool all_pairs = false;             ///< The answer of every tested pair over the whole step.
-  bool all_contacts_in_time = false;  ///< So too, with every interval of contact of each.
-  /// The closest approach of all pairs, with the answer of the pair that comes closest. With one of
-  /// the two above: that of each pair, which costs much more. It is over all times at which a pair
-  /// is tested, without padding, margin and tracking errors; where a pair touches, at the time of a
-  /// contact that need not be its first.
+  bool all_pairs = false;             ///< Answers every tested pair over the whole step.
+  bool all_contacts_in_time = false;  ///< Answers every pair likewise, with all of its intervals of
+                                      ///< contact.
+  /// Computes the closest approach of all pairs, with the answer of the pair that comes closest.
+  ///
+  /// With one of the two options above it computes that of each pair, which costs much more. A
+  /// closest approach covers all times at which a pair is tested, without padding, margin and
+  /// tracking errors. Where a pair touches, its time is that of a contact, which need not be the
+  /// first.
   bool closest = false;
-  double time_resolution = 1e-3;  ///< [-]  Of contact intervals: see there; in (0, 1].
+  double time_resolution = 1e-3;  ///< [-]  Resolution of contact intervals; in (0, 1].
 
-  /// Called now and then from the calling thread with the share that is done, in [0, 1]; without
-  /// all_pairs the time proven free so far. May be empty.
+  /// Called now and then from the calling thread with the share that is done, in [0, 1]; may be
+  /// empty.
+  ///
+  /// Without all_pairs the number is the time proven free so far.
   std::function<void(double)> progress = {};
 };
 
 /// Finds the first contact of all members that are tested against each other.
 ///
-/// Before t every pair is farther apart than its margin, paddings included: proven for the exact
-/// motions that the input defines, and for all that stay within the tracking errors. At a contact
-/// the nominal motion's distance is no more than margin + tolerance. The same on every run and for
-/// every number of threads, as long as neither the deadline nor the stop token ends it.
+/// Before t every pair is proven farther apart than its margin, paddings included. That holds for
+/// the exact motions that the input defines, and for all that stay within the tracking errors. At a
+/// contact the nominal motion's distance is no more than margin + tolerance. The answer is the same
+/// on every run and for every number of threads, as long as neither the deadline nor the stop token
+/// ends it.
 ///
-/// Method: the step is walked piece by piece of the trajectories, several at once, and left at the
+/// Method: the search goes through the pieces of the trajectories, several at once, and ends at the
 /// first contact.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range, or not for this
-/// scene
+///          scene
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_robots(const RobotScene& scene,
                                                         const RobotCheckOptions& options = {});
 

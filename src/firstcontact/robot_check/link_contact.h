@@ -23,13 +23,14 @@ struct MovingLink {
 
 /// Finds the first contact of A and B during the step; contacts are in the frame F.
 ///
-/// The promises are those of `first_contact` of two moving shapes.
+/// The promises are those of first_contact() for two moving shapes. The answer for B and A is the
+/// same, up to the swap.
 ///
-/// The search is that of docs/algorithm.md, over windows of time in which no point's path bends by
-/// more than about half of itself (LinkPairMotion). The same for A and B swapped, up to the swap.
+/// Method: the search is that of docs/algorithm.md, over windows of time in which no point's path
+/// bends by more than about half of itself (LinkPairMotion).
 ///
-/// A shape may deform whose motion has constant rates (LinkPath::constant_rates): a body, not a
-/// link.
+/// A shape may deform if its motion has constant rates (LinkPath::constant_rates): a body's shape,
+/// not a link's.
 ///
 /// @throws std::invalid_argument if an option is outside its range, or the shape of a link deforms
 FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,

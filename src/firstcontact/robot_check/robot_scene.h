@@ -26,19 +26,21 @@ namespace firstcontact {
 
 struct DisabledPair;
 
-/// A body that a link carries for a while. All by their numbers as members of the scene.
+/// A body that a link carries for a while, both by their numbers as members of the scene.
 ///
-/// The body keeps its own motion before t_from. Then it is rigidly fixed to the link, with the pose
-/// relative to it frozen at t_from and rounded to doubles, which define the motion from then on.
-/// Or X_LB is where the link holds it from the start; then its own motion has no meaning. After
-/// t_to it rests where it is, rounded alike.
+/// Before t_from the body keeps its own motion. Then it is rigidly fixed to the link. Its pose in
+/// the link is frozen at t_from and rounded to doubles, which define the motion from then on. Or
+/// X_LB gives that pose from the start on; then the body's own motion has no meaning. After t_to
+/// the body rests where it is, rounded likewise.
 struct Attachment {
   std::size_t body = 0;
-  std::size_t link = 0;                       ///< Holds it: the two are not tested while it does.
-  double t_from = 0.0;                        ///< [-]  In [0, 1].
-  double t_to = 1.0;                          ///< [-]  In (t_from, 1].
-  std::vector<std::size_t> touch_links = {};  ///< Not tested against the body either meanwhile.
-  std::optional<Pose> X_LB = {};              ///< Only with t_from = 0.
+  std::size_t link = 0;  ///< The link that holds the body; meanwhile the two are not tested.
+  double t_from = 0.0;   ///< [-]  In [0, 1].
+  double t_to = 1.0;     ///< [-]  In (t_from, 1].
+  std::vector<std::size_t> touch_links = {};  ///< Links that are not tested against the body either
+                                              ///< meanwhile.
+  std::optional<Pose> X_LB = {};  ///< The pose of the body in the link from the start on; only with
+                                  ///< t_from = 0.
 };
 
 /// One geometry of a member, in a frame G that is fixed in the member's frame M.
@@ -72,13 +74,14 @@ struct BodyStretch {
 
 /// Bodies and robots with their motions over the step, t in [0, 1].
 ///
-/// All that can touch is a *member*, numbered from 0 in the order of adding: a body is one, a robot
-/// is as many as it has links. Which pairs of members are tested, and how far apart they have to
-/// stay, is a matter of three things:
-/// - links of one robot that are adjacent, or that only fixed joints connect, are never tested, nor
-///   are two bodies that both rest over the whole step;
-/// - rules() ignores pairs and gives margins;
-/// - a link that holds a body, and touch links, are not tested against it meanwhile.
+/// Anything that can touch is a *member*, numbered from 0 in the order of adding. A body is one
+/// member, a robot as many as it has links. Three things determine which pairs of members are
+/// tested, and how far apart they have to stay:
+/// - Links of one robot are never tested if they are adjacent, or only fixed joints connect them.
+/// Nor
+///   are two bodies that both rest over the whole step.
+/// - rules() ignores pairs and gives margins.
+/// - A link that holds a body, and touch links, are not tested against it meanwhile.
 ///
 /// Members without geometry touch nothing. Names are unique; that of a link is "robot/link".
 /// Functions throw std::invalid_argument on bad input, with the name of what is wrong.
@@ -86,8 +89,9 @@ class FIRSTCONTACT_API RobotScene {
  public:
   explicit RobotScene(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
 
-  /// Adds a body and returns its number as a member. One that deforms (move_vertices) cannot be
-  /// attached to a link.
+  /// Adds a body and returns its number as a member.
+  ///
+  /// A body that deforms (move_vertices) cannot be attached to a link.
   std::size_t add_body(std::string name, Shape shape, Motion X_WB = Motion::fixed());
 
   /// Adds a robot and returns its number, from 0.
@@ -101,7 +105,8 @@ class FIRSTCONTACT_API RobotScene {
 
   /// Sets another motion of the same robot.
   ///
-  /// All else stays as it is. The places of bodies that the robot carries are taken anew.
+  /// The rest of the scene stays as it is. The places of bodies that the robot carries are taken
+  /// anew.
   void set_motion(std::size_t robot, RobotMotion motion);
 
   /// Attaches a body to a link. A body may be attached several times, one after the other.
@@ -122,11 +127,12 @@ class FIRSTCONTACT_API RobotScene {
   /// pairs.
   ///
   /// A proof of freedom then holds for every motion of the robot whose coordinates stay within the
-  /// errors of the nominal ones. The error of a floating or ball joint is one of the child's frame:
-  /// its angle, and the way of its origin. Mimic joints follow theirs, errors included.
+  /// errors of the nominal ones. For a floating or ball joint the error is that of the child's
+  /// frame: its angle, and the displacement of its origin. Mimic joints follow theirs, errors
+  /// included.
   void set_tracking_error(std::size_t robot, std::string_view joint, const TrackingError& error);
 
-  [[nodiscard]] PairRules& rules() { return rules_; }  ///< By members.
+  [[nodiscard]] PairRules& rules() { return rules_; }  ///< The rules for pairs of members.
   [[nodiscard]] const PairRules& rules() const { return rules_; }
 
   [[nodiscard]] std::size_t size() const { return members_.size(); }  ///< Number of members.
@@ -165,9 +171,11 @@ class FIRSTCONTACT_API RobotScene {
   /// All attachments, in order of body, then of time.
   [[nodiscard]] std::span<const Attachment> attachments() const { return attachments_; }
 
-  /// [m]  The margin of a pair with both paddings, or the distance that it is held to. Tracking
-  /// errors are left out. None where the pair is never tested. A pair with an attached body has
-  /// one, though it may not be tested all the time.
+  /// [m]  The margin of a pair with both paddings, or the distance that it is held to; none where
+  /// the pair is never tested.
+  ///
+  /// Tracking errors are left out. A pair with an attached body has a margin, though it may not be
+  /// tested all the time.
   [[nodiscard]] std::optional<double> margin(const BodyPair& members) const;
 
   /// The paths that all checks of the scene share.
@@ -181,7 +189,7 @@ class FIRSTCONTACT_API RobotScene {
   /// The pose X_WM(t), rounded to doubles; t is clamped to [0, 1].
   [[nodiscard]] Pose pose(std::size_t member, double t) const;
 
-  /// The same of one of its geometries, by its number.
+  /// The pose of one of a member's geometries, by its number.
   [[nodiscard]] Pose geometry_pose(std::size_t member, std::size_t geometry, double t) const;
 
  private:
@@ -190,9 +198,9 @@ class FIRSTCONTACT_API RobotScene {
     std::vector<MemberGeometry> geometries;
     double padding = 0.0;
     std::optional<RobotLink> link;
-    std::optional<Motion> motion = {};        // Of a body.
-    std::vector<BodyStretch> stretches = {};  // Of a body.
-    bool rests = false;                       // A body that never moves.
+    std::optional<Motion> motion = {};        // Only of a body.
+    std::vector<BodyStretch> stretches = {};  // Only of a body.
+    bool rests = false;                       // Whether it is a body that never moves.
     std::vector<std::shared_ptr<const JointPath>> paths = {};
   };
   struct Robot {

@@ -26,14 +26,14 @@ struct LinkPairIndex {
 
 /// Finds all pairs of links whose collision geometries are no farther than `margin` apart at t = 0.
 ///
-/// They are in order of their indices, those of adjacent links included. Solids touch what is
-/// inside of them. Poses are rounded to doubles first: pairs within 1e-12 of the robot's size may
-/// go either way.
+/// They are in order of their indices, those of adjacent links included. A solid touches geometry
+/// that is inside of it. Poses are rounded to doubles first: pairs within 1e-12 of the robot's size
+/// may go either way.
 ///
-/// @param motion  of a robot whose collision shapes are there (LoadShapes)
+/// @param motion  the motion of a robot whose collision shapes were made (LoadShapes)
 /// @param margin  [m]  >= 0
 /// @throws std::invalid_argument if a collision geometry has no shape, or the margin is out of
-/// range
+///          range
 [[nodiscard]] FIRSTCONTACT_API std::vector<LinkPairIndex> touching_links(const RobotMotion& motion,
                                                                          double margin = 0.0);
 

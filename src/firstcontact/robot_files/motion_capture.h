@@ -20,10 +20,10 @@ namespace firstcontact {
 /// A bone, frame B: it turns about its origin against the bone that it hangs on.
 struct Bone {
   std::string name;
-  std::size_t parent = 0;             ///< Index of a bone before this one; the root's is its own.
-  Pose X_PB = {};                     ///< At zero rotation, in the parent; of the root identity.
-  std::vector<Eigen::Vector3d> ends;  ///< [m]  In B: where it reaches from its origin.
-  bool turns = true;                  ///< Else it is rigid in its parent.
+  std::size_t parent = 0;  ///< Index of a bone before this one; the root's is its own.
+  Pose X_PB = {};          ///< The pose in the parent at zero rotation; the identity for the root.
+  std::vector<Eigen::Vector3d> ends;  ///< [m]  Points of B that the bone reaches from its origin.
+  bool turns = true;                  ///< Else the bone is rigid in its parent.
 };
 
 /// One captured pose.
@@ -41,8 +41,9 @@ struct MotionCapture {
   std::vector<CaptureFrame> frames;
 };
 
-/// The thickness of a figure: a bone is a capsule from its origin to each end, one without ends a
-/// sphere.
+/// The thickness of a figure.
+///
+/// A bone is a capsule from its origin to each end. A bone without ends is a sphere.
 struct FigureOptions {
   double slenderness = 0.25;      ///< [-]  Radius by length.
   double least_radius = 0.02;     ///< [m]
@@ -65,7 +66,7 @@ struct FigureOptions {
 /// by the shortest rotation. The root's origin goes at a constant velocity.
 ///
 /// @param figure  as make_figure made it from the same bones
-/// @param X_WC    places the capture in the world; captures are often y-up
+/// @param X_WC    places the capture in the world; captures often have y up
 /// @throws std::invalid_argument if there are no such frames, or they do not fit the figure
 [[nodiscard]] FIRSTCONTACT_API RobotMotion capture_motion(const RobotModel& figure,
                                                           const MotionCapture& capture,

@@ -22,27 +22,29 @@ struct AsfSkeleton {
   ///
   /// The root has 0 ... 2 for positions, 3 ... 5 for turns.
   std::vector<std::vector<std::size_t>> channels;
-  double unit_length = 1.0;  ///< [m]  Of one unit of length in the files.
+  double unit_length = 1.0;  ///< [m]  Length of one unit of the files.
+  /// Whether angles of the files are in degrees, else in radians.
   bool degrees = true;
-  Pose root = {};  ///< Of the root bone at zero position and turns.
+  Pose root = {};  ///< Pose of the root bone at zero position and turns.
 };
 
+/// The options of reading an ASF file.
 struct AsfOptions {
   /// [m]  The length in which the file's unit `length` counts; an inch by default.
   ///
-  /// A number l there means that a coordinate of x is x / l of these. Inches are those of the
-  /// motion capture laboratory of Carnegie Mellon University.
+  /// With a `length` of l, a coordinate of x is x / l of these. Inches are those of the motion
+  /// capture laboratory of Carnegie Mellon University.
   double unit_length = 0.0254;
 };
 
 /// Reads an ASF file.
 ///
-/// A bone's axis gives the turn of its own frame at zero. Its turns about x, y and z are those of
-/// its own frame, in the order of `dof`, the first one innermost. Bones without `dof` are rigid in
-/// their parents. Limits and masses are passed over.
+/// A bone's axis gives the turn of its own frame at zero. The bone turns about x, y and z of that
+/// frame, in the order of `dof`, the first turn innermost. Bones without `dof` are rigid in their
+/// parents. The reader passes over limits and masses.
 ///
 /// @throws ParseError  one line with path, line and what was expected: an axis order other than
-///         XYZ, a dof other than rx, ry, rz, a bone that is not in the hierarchy, ...
+///          XYZ, a dof other than rx, ry, rz, a bone that is not in the hierarchy, ...
 /// @throws std::invalid_argument if an option is out of its range
 [[nodiscard]] FIRSTCONTACT_API AsfSkeleton read_asf(const std::filesystem::path& path,
                                                     const AsfOptions& options = {});

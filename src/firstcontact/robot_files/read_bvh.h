@@ -12,15 +12,16 @@
 
 namespace firstcontact {
 
+/// The options of reading a BVH file.
 struct BvhOptions {
-  double unit_length = 0.01;  ///< [m]  Of one unit of length in the file; > 0.
+  double unit_length = 0.01;  ///< [m]  Length of one unit of the file; > 0.
 };
 
 /// Reads a BVH file: HIERARCHY with one ROOT, then MOTION.
 ///
-/// A bone reaches from its joint to each of its children's joints and to its end site. Rotations
-/// are those of the channels multiplied from left to right, in degrees. Position channels belong to
-/// the root only; there they replace its offset.
+/// A bone reaches from its joint to each of its children's joints and to its end site. The channels
+/// give its rotations in degrees, multiplied from left to right. Only the root has position
+/// channels. There they replace its offset.
 ///
 /// @throws ParseError  one line with path, line and what was expected
 /// @throws std::invalid_argument if an option is out of its range

@@ -16,7 +16,7 @@
 
 namespace firstcontact {
 
-/// A named part of the robot. Indices rise, each is there once.
+/// A named part of the robot. Indices rise, and each is there once.
 struct RobotGroup {
   std::string name;
   std::vector<std::size_t> links;
@@ -27,7 +27,7 @@ struct RobotGroup {
 struct GroupState {
   struct JointValue {
     std::size_t joint = 0;
-    std::vector<double> coordinates;  ///< [rad or m]  As many as the joint has.
+    std::vector<double> coordinates;  ///< [rad or m]  As many numbers as the joint has coordinates.
   };
   std::string name;
   std::string group;
@@ -51,11 +51,11 @@ struct RobotSemantics {
 
   /// The report on the file.
   ///
-  /// Elements that name what the robot does not have, or has fixed, are counted in one warning for
-  /// each kind; files shared by variants of a robot hold such elements. They have no effect: none
-  /// can hide a contact.
+  /// Files that variants of a robot share hold elements that name links or joints which this robot
+  /// does not have, or has fixed. One warning counts them for each kind of element. They have no
+  /// effect: none can hide a contact.
   FileReport report;
-  std::vector<std::string> warnings;  ///< Those of the report.
+  std::vector<std::string> warnings;  ///< The warnings of the report.
 
   /// Whether the pair is in `disabled`.
   [[nodiscard]] FIRSTCONTACT_API bool is_disabled(std::size_t link, std::size_t other) const;

@@ -18,7 +18,7 @@ namespace firstcontact {
 /// The shapes that are made while reading; the others stay descriptions.
 enum class LoadShapes {
   none,
-  collision,  ///< Of what can touch.
+  collision,  ///< Shapes of the geometry that can touch.
   all,
 };
 
@@ -26,19 +26,22 @@ enum class LoadShapes {
 enum class RobotSurface {
   collision,
   visual,
-  collision_or_visual,  ///< How a link looks, where it has no collision geometry.
+  collision_or_visual,  ///< Collision geometry; for a link without any its visual geometry.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of RobotSurface in files and in Python, in this order.
 inline constexpr std::array<const char*, 3> kRobotSurfaceWords{"collision", "visual",
                                                                "collision_or_visual"};
 
+/// The options of reading a URDF file.
 struct UrdfOptions {
   /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest of the first that has it.
+  ///
   /// Behind them come the package NAME that holds the URDF, and all folders above.
   std::vector<std::filesystem::path> package_roots = {};
   LoadShapes shapes = LoadShapes::collision;
-  RobotSurface surface = RobotSurface::collision;  ///< Becomes the collision geometry of links.
+  RobotSurface surface = RobotSurface::collision;  ///< The geometry that becomes the collision
+                                                   ///< geometry of links.
   ReadingOptions reading = {};
 };
 
@@ -50,13 +53,14 @@ struct RobotReading {
 
 /// Reads a URDF file. Each mesh file is read once for each scale.
 ///
-/// Beyond URDF 1.2: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and
-/// `ball` or `spherical`, and Drake's `<drake:capsule>` and `<drake:mimic>`.
+/// Beyond URDF 1.2 the reader knows joints of type `screw` (with an attribute `pitch` [m/rad] of
+/// the joint) and `ball` or `spherical`. It also knows Drake's `<drake:capsule>` and
+/// `<drake:mimic>`.
 ///
 /// Elements that do not matter for contacts are left out by name: looks, settings of simulators and
-/// controllers, sensors, elements and attributes with a prefix, an `<inertial>` that is wrong
-/// (LinkInertia::defect). A name that is not known is an error where it is near a known one, holds
-/// or places geometry, or is xacro's; elsewhere it is a warning. docs/robot_files.md has the table.
+/// controllers, and sensors. So are elements and attributes with a prefix, and an `<inertial>` that
+/// is wrong (LinkInertia::defect). An unknown name is an error where it is near a known one, holds
+/// or places geometry, or is xacro's. Elsewhere it is a warning. docs/robot_files.md has the table.
 ///
 /// Numbers are read exactly, whatever the locale. An `rpy` becomes a quaternion of doubles, which
 /// from then on means the exact rotation.
