@@ -45,7 +45,7 @@ struct TwoPoseMotion {
 
 /// A motion through poses at times, at rest before the first and after the last time.
 struct WaypointMotion {
-  std::vector<double> times;  ///< [s]  >= 0, strictly increasing, as many as poses
+  std::vector<double> times;  ///< [s]  >= 0, strictly increasing; as many as poses.
   std::vector<Pose> poses;
   Between between = Between::constant_velocity;
 };
@@ -62,10 +62,10 @@ using BodyMotion = std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion
 /// Whether a motion takes the whole duration of the scene, however long that is, to run.
 [[nodiscard]] FIRSTCONTACT_API bool spans_duration(const BodyMotion& motion);
 
-/// The certified motion of a body's frame over the scene, t = time / duration in [0, 1]. Where
-/// vertices move it stays: the frame is the world's.
-/// Waypoint times are divided by the duration in double precision; the certificate holds for the
-/// rounded quotients.
+/// The certified motion of a body's frame over the scene, t = time / duration in [0, 1].
+///
+/// Where vertices move, the frame is the world's and stays. Waypoint times are divided by the
+/// duration in double precision. The certificate holds for the rounded quotients.
 ///
 /// @param duration  [s]  > 0, at least the last waypoint's time
 /// @throws std::invalid_argument as the factories of Motion do

@@ -32,7 +32,7 @@ struct SphereShape {
 /// A capsule, with the parameters of make_capsule().
 struct CapsuleShape {
   double radius = 0.0;  ///< [m]
-  double length = 0.0;  ///< [m]  Of the segment along z, without the caps.
+  double length = 0.0;  ///< [m]  Length of the segment along z, without the caps.
 };
 
 /// A box, with the parameters of make_box().
@@ -43,14 +43,14 @@ struct BoxShape {
 /// A cylinder, with the parameters of make_cylinder().
 struct CylinderShape {
   double radius = 0.0;                    ///< [m]
-  double length = 0.0;                    ///< [m]  Along z.
+  double length = 0.0;                    ///< [m]  Length along z.
   std::optional<double> enclosure_error;  ///< [m]
 };
 
 /// A cone, with the parameters of make_cone().
 struct ConeShape {
-  double radius = 0.0;                    ///< [m]  Of the base.
-  double length = 0.0;                    ///< [m]  Along z, from base to tip.
+  double radius = 0.0;                    ///< [m]  Radius of the base.
+  double length = 0.0;                    ///< [m]  Length along z, from base to tip.
   std::optional<double> enclosure_error;  ///< [m]
 };
 
@@ -62,7 +62,7 @@ struct EllipsoidShape {
 
 /// The convex hull of points or of a mesh in a file, as make_convex_hull() makes it.
 struct ConvexHullShape {
-  std::variant<MeshFile, std::vector<Eigen::Vector3d>> of;  ///< [m]
+  std::variant<MeshFile, std::vector<Eigen::Vector3d>> of;  ///< [m]  Points, or a mesh in a file.
 };
 
 /// A point cloud in a file of its own, as make_point_cloud() makes it.
@@ -86,15 +86,16 @@ struct HeightFile {
 struct BodyShape {
   /// The source of the shape.
   ///
-  /// A Mesh holds what its scene writes inline, not welded. A Shape is ready, with a radius and a
-  /// filling of its own; no file holds one. It is written as the primitive that it is, or else as
+  /// A Mesh holds the triangles that its scene writes inline, not welded. A Shape is ready, with a
+  /// radius and a filling of its own. It comes from no file, and is written as its primitive or as
   /// its mesh.
   std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
                EllipsoidShape, ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
       source;
-  double radius = 0.0;  ///< [m]  Thickens all but primitives: sphere ... ellipsoid; >= 0.
-  Filling filling = Filling::surface;  ///< Of a mesh.
-  double enclosure_error = 0.0;        ///< [m]  Of an inline mesh: Shape::enclosure_error(); >= 0.
+  double radius = 0.0;  ///< [m]  Thickens any source but the primitives from sphere to ellipsoid;
+                        ///< >= 0.
+  Filling filling = Filling::surface;  ///< The filling of a mesh.
+  double enclosure_error = 0.0;        ///< [m]  Shape::enclosure_error() of an inline mesh; >= 0.
 };
 
 }  // namespace firstcontact

@@ -11,18 +11,19 @@ namespace firstcontact {
 
 /// A rule for a pair that is in contact at one end of a path.
 ///
-/// There the pair is closer than its margin, but apart by a distance d0 > 0. It is held to a share
-/// of d0 in place of its margin, as with StartContacts::keep_half. As d0 is above 0, the two never
-/// pass into each other. All other pairs keep their margins.
+/// There the pair is closer than its margin, but apart by a distance d0 > 0. The rule holds the
+/// pair to a share of d0 in place of its margin, as StartContacts::keep_half does. As d0 is above
+/// 0, the two never pass into each other. All other pairs keep their margins.
 enum class ContactPolicy {
-  may_stay,    ///< Farther apart than half of d0 along the whole path. It may slide, leave, return.
+  may_stay,  ///< Farther apart than half of d0 along the whole path. The pair may slide, leave and
+             ///< return.
   not_deeper,  ///< Farther apart than 15/16 of d0 along the whole path.
   /// Farther apart than 15/16 of d0 along the one edge at that end. Along all other edges the pair
   /// keeps its margin.
   must_open,
 };
 
-/// Its words in files, in this order.
+/// The words of ContactPolicy in files, in this order.
 inline constexpr std::array<const char*, 3> kContactPolicyWords{"may_stay", "not_deeper",
                                                                 "must_open"};
 
@@ -34,14 +35,15 @@ inline constexpr std::array<const char*, 3> kContactPolicyWords{"may_stay", "not
 /// An end of a path.
 enum class PathEnd { start, goal };
 
-/// Its words in files, in this order.
+/// The words of PathEnd in files, in this order.
 inline constexpr std::array<const char*, 2> kPathEndWords{"start", "goal"};
 
 /// A pair that may be in contact at an end of a path.
 struct ContactPair {
-  BodyPair members = {};  ///< Of the scene.
+  BodyPair members = {};  ///< Two members of the scene.
   ContactPolicy policy = ContactPolicy::may_stay;
-  PathEnd at = PathEnd::start;  ///< Where d0 is measured; of several goals the least counts.
+  PathEnd at = PathEnd::start;  ///< The end at which d0 is measured; of several goals the least d0
+                                ///< counts.
 };
 
 }  // namespace firstcontact

@@ -29,12 +29,12 @@ struct GapPoint {
 /// Bounds the gap of the scene by a polyline: proven, at no time is the gap below it.
 ///
 /// Around each sample the gap is at least its lower bound less the greatest rate times the time
-/// between (a Lipschitz bound), and before the result's t at least its clearance. Samples that
-/// are close together make it tight. Of a scene with robots it is the clearance until the result's
-/// t, and 0 from then on.
+/// between (a Lipschitz bound). Before the result's t the gap is at least the result's clearance.
+/// Samples that are close together make the bound tight. In a scene with robots the bound is the
+/// clearance until the result's t, and 0 from then on.
 ///
-/// @param samples  of this scene, at increasing times
-/// @return nothing where no pair is tested
+/// @param samples  samples of this scene, at increasing times
+/// @returns nothing where no pair is tested
 [[nodiscard]] FIRSTCONTACT_API std::vector<GapPoint> gap_lower_bound(
     const LoadedScene& loaded, const SceneResult& result, std::span<const GapSample> samples);
 

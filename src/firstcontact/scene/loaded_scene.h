@@ -37,14 +37,15 @@ struct SceneLimits {
 /// A scene and all that its queries need.
 struct LoadedScene {
   Scene scene;
-  BodySet bodies;  ///< In the scene's order; t = time / duration. Empty where there are robots.
+  BodySet bodies;  ///< The bodies in the scene's order; t = time / duration. Empty where there are
+                   ///< robots.
   std::string input_digest;  ///< SHA-256 over the digests of the scene's text and its files.
   /// The bodies and robots of a scene with robots; members are numbered as those of the scene.
   std::shared_ptr<const RobotScene> robots = {};
-  std::vector<SceneLimits> limits = {};    ///< Of robots that leave any.
-  std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
-  std::vector<FileReport> files = {};      ///< What became of each file, in the order of their use.
-  PairCounts pair_counts = {};             ///< Of a check; see also LinksAsBodies.
+  std::vector<SceneLimits> limits = {};    ///< The robots that leave a limit.
+  std::vector<std::string> warnings = {};  ///< Notes for the user, those about limits included.
+  std::vector<FileReport> files = {};      ///< The reports on all files, in the order of their use.
+  PairCounts pair_counts = {};             ///< The counts of a check; see also LinksAsBodies.
 };
 
 /// The shape of a body of the scene, by its number.
@@ -60,11 +61,12 @@ struct LoadedScene {
 /// @throws std::invalid_argument  names the first limit that a robot leaves, where one does
 FIRSTCONTACT_API void require_within_limits(const LoadedScene& loaded);
 
-/// Loads the meshes of a scene, as far as the cache does not hold them yet. Free bodies rest at
-/// their pose.
+/// Loads the meshes of a scene that the cache does not hold yet.
 ///
-/// @throws ParseError if a mesh file cannot be used; std::invalid_argument if the scene, made by
-///         hand, holds what read_scene would refuse
+/// Free bodies rest at their pose.
+///
+/// @throws ParseError if a mesh file cannot be used
+/// @throws std::invalid_argument if the scene, made by hand, holds what read_scene would refuse
 [[nodiscard]] FIRSTCONTACT_API LoadedScene load_scene(Scene scene, ShapeCache& cache);
 
 }  // namespace firstcontact

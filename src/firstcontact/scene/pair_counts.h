@@ -20,7 +20,7 @@ struct LoadedScene;
 /// The first five come from the scene and its robots: the pair is ignored. The others come from the
 /// kind of question: the pair is left out.
 enum class WhyUntested {
-  joined_links,        ///< Links of one robot that a joint or fixed joints connect.
+  joined_links,        ///< Links of one robot that one joint, or fixed joints, connect.
   srdf,                ///< The robot's SRDF disables the pair.
   allowed_collisions,  ///< A planning scene allows it to touch.
   held,                ///< A link holds the body over the whole step, or may touch it meanwhile.
@@ -29,7 +29,7 @@ enum class WhyUntested {
   both_scripted,       ///< In a simulation: neither of the two is free, and one of them moves.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of WhyUntested in files and in Python, in this order.
 inline constexpr std::array<const char*, 7> kWhyUntestedWords{
     "joined_links", "srdf", "allowed_collisions", "held", "rule", "both_rest", "both_scripted"};
 
@@ -42,15 +42,18 @@ struct UntestedPairs {
 
 /// The counts of the pairs of a scene: each is tested, or is among the untested ones of one reason.
 ///
-/// Members here are the bodies and those links of robots that have geometry.
-/// There are n (n - 1) / 2 pairs of n members.
+/// Members here are the bodies and those links of robots that have geometry. n members have n
+/// (n - 1) / 2 pairs.
 struct PairCounts {
-  std::size_t members = 0;  ///< What can touch.
+  std::size_t members = 0;  ///< Number of members that can touch.
   std::size_t tested = 0;
-  std::vector<UntestedPairs> untested = {};  ///< By reason, in its order; none of no pair.
+  std::vector<UntestedPairs> untested = {};  ///< The untested pairs by reason, in the order of
+                                             ///< reasons; no entry is empty.
 
-  [[nodiscard]] FIRSTCONTACT_API std::size_t ignored() const;   ///< For the first five reasons.
-  [[nodiscard]] FIRSTCONTACT_API std::size_t left_out() const;  ///< For the others.
+  [[nodiscard]] FIRSTCONTACT_API std::size_t ignored() const;   ///< Number of pairs with one of the
+                                                                ///< first five reasons.
+  [[nodiscard]] FIRSTCONTACT_API std::size_t left_out() const;  ///< Number of pairs with one of the
+                                                                ///< other reasons.
 };
 
 /// Whether pairs of this kind are ignored, or else left out.
@@ -58,13 +61,13 @@ struct PairCounts {
 
 /// Counts the pairs that a check of the scene tests.
 ///
-/// Takes O(n + rules), and O(m n) where m links of robots are among the n members.
+/// The cost is O(n + rules) for n members, and O(m n) where m of them are links of robots.
 [[nodiscard]] FIRSTCONTACT_API PairCounts count_checked_pairs(const LoadedScene& loaded);
 
 /// Counts the pairs that a simulation of the scene holds apart and that verify_run() proves.
 ///
-/// They are those with a free body or a link of a robot with dynamics. The cost is that of
-/// count_checked_pairs().
+/// In each of them one member is a free body, or a link of a robot with dynamics. The cost is that
+/// of count_checked_pairs().
 [[nodiscard]] FIRSTCONTACT_API PairCounts count_simulated_pairs(const LoadedScene& loaded);
 
 /// A number of pairs in words: "3 pairs", "no pair".

@@ -48,22 +48,24 @@ struct PlannedPathStatistics {
 /// The contents of a path file. Numbers are those of the file, bit for bit.
 struct PlannedPath {
   bool is_proven = false;  ///< Else approximate: its edges are proven, but it ends before a goal.
-  std::vector<std::string> robots = {};  ///< That move; empty where a body does.
-  std::string body = {};                 ///< That moves; empty where robots do.
-  /// Coordinates that the numbers of waypoints are of; ROBOT/NAME where several robots move.
+  std::vector<std::string> robots = {};  ///< Robots that move; empty where a body does.
+  std::string body = {};                 ///< Body that moves; empty where robots do.
+  /// Names of the coordinates of waypoints; ROBOT/NAME where several robots move.
   std::vector<std::string> joints = {};
-  std::vector<Turning> turnings = {};  ///< Of each of them.
-  /// At least one. Of a body a position, then a quaternion w, x, y, z.
+  std::vector<Turning> turnings = {};  ///< The way of each coordinate.
+  /// At least one. That of a body is a position, then a quaternion w, x, y, z.
   std::vector<std::vector<double>> waypoints = {};
-  /// [s]  Of each waypoint, from 0 to the duration of the scene, where the surroundings move; else
-  /// empty.
+  /// [s]  Time of each waypoint, from 0 to the duration of the scene, where the environment moves;
+  /// else empty.
   std::vector<double> times = {};
-  /// [m]  Of each edge: a proven lower bound of the distance of tested pairs; none where none is.
+  /// [m]  Proven lower bound of the distance of tested pairs along each edge; none where no pair is
+  /// tested.
   std::vector<std::optional<double>> clearances = {};
   double margin = 0.0;                   ///< [m]
   double tolerance = 1e-6;               ///< [m]
   double extra_clearance = 0.0;          ///< [m]
-  std::optional<double> clearance = {};  ///< [m]  The least, or that of the only waypoint.
+  std::optional<double> clearance = {};  ///< [m]  The least of `clearances`, or that of the only
+                                         ///< waypoint.
   std::vector<NamedContactPair> contact_pairs = {};
   std::vector<std::vector<double>> goals = {};
   std::optional<std::size_t> goal = {};
@@ -74,8 +76,9 @@ struct PlannedPath {
   std::uint64_t seed = 1;
   double time = 1.0;  ///< [s]
   PlannedPathStatistics statistics = {};
-  /// All, with the movers at their starts. Its text_digest is that of the text from
-  /// which the path was planned.
+  /// The whole scene, with the movers at their starts.
+  ///
+  /// Its text_digest is that of the text from which the path was planned.
   Scene scene = {};
   std::string version = {};
   std::string input_digest = {};  ///< SHA-256 of everything read, in hexadecimal.

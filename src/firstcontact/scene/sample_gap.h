@@ -36,8 +36,7 @@ struct GapSample {
 /// Makes `count` times from 0 to 1 at equal distances; at least 2.
 [[nodiscard]] FIRSTCONTACT_API std::vector<double> even_times(std::size_t count);
 
-/// Makes the times at which a program would test that tests `rate` times a second, from the start
-/// on.
+/// Makes the times of a test that runs `rate` times a second, from the start on.
 ///
 /// @param rate      [1/s]  > 0
 /// @param duration  [s]    > 0

@@ -24,11 +24,13 @@
 
 namespace firstcontact {
 
+/// A body of a scene: its shape and its motion.
 struct Body {
   std::string name;  ///< Unique in the scene, not empty.
   BodyShape shape;
   BodyMotion motion;
-  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else by its motion.
+  std::optional<FreeBody> free = {};  ///< Properties of a body that moves freely in a simulation;
+                                      ///< without them it follows its motion.
   Surface surface = {};
 };
 
@@ -47,8 +49,9 @@ struct BodyGroup {
   std::vector<std::size_t> bodies;  ///< Members.
 };
 
-/// Two groups by their index: every body of one with every body of the other. One group twice: all
-/// pairs inside it.
+/// Two groups by their index: every body of one with every body of the other.
+///
+/// One group twice stands for all pairs inside it.
 using GroupPair = std::array<std::size_t, 2>;
 
 struct GroupMargin {
@@ -64,7 +67,7 @@ struct SceneOptions {
   StartContacts start_contacts = StartContacts::report;
   double contact_band = 0.0;       ///< [m]  >= 0
   std::optional<double> deadline;  ///< [s]  Wall clock for the whole scene; > 0.
-  bool lenient = false;            ///< As ReadingOptions::lenient, of the files that it names.
+  bool lenient = false;            ///< ReadingOptions::lenient for the files that the scene names.
 };
 
 /// A scene, read and resolved: every pose is a position and a quaternion.
@@ -74,25 +77,32 @@ struct Scene {
   std::vector<SceneRobot> robots;
   std::vector<BodyGroup> groups;
   std::vector<BodyPair> ignored_pairs;
-  std::vector<PairMargin> pair_margins;  ///< Prevail over those of groups.
+  std::vector<PairMargin> pair_margins;  ///< Margins of pairs; they prevail over those of groups.
   std::vector<GroupPair> ignored_groups;
-  std::vector<GroupMargin> group_margins;  ///< Of several the greatest holds.
-  /// Those of the ignored pairs that planning scenes allow to touch. Only the counts of pairs tell
-  /// them apart.
+  std::vector<GroupMargin> group_margins;  ///< Margins of groups; if several apply, the greatest
+                                           ///< holds.
+  /// The ignored pairs that planning scenes allow to touch.
+  ///
+  /// Only the counts of pairs distinguish them from other ignored pairs.
   std::vector<BodyPair> allowed_pairs = {};
   SceneOptions options;
   std::optional<Simulation> simulation = {};
-  std::optional<PlanQuestion> plan = {};       ///< write_scene() leaves it out.
-  std::optional<HapticQuestion> haptics = {};  ///< Likewise.
-  double duration = 1.0;                       ///< [s]  Of the step; t = 1 there.
-  /// SHA-256, in hexadecimal, of the text that was read and of the trajectory files that it names,
-  /// which write_scene() writes out; may be empty.
+  std::optional<PlanQuestion> plan = {};  ///< The question to a planner; write_scene() leaves it
+                                          ///< out.
+  std::optional<HapticQuestion> haptics = {};  ///< The question to a haptic device; write_scene()
+                                               ///< leaves it out.
+  double duration = 1.0;                       ///< [s]  Duration of the step; t = 1 there.
+  /// SHA-256, in hexadecimal, of the text that was read and of the trajectory files that it names;
+  /// may be empty.
+  ///
+  /// write_scene() writes these files out.
   std::string text_digest;
-  std::vector<std::string> warnings = {};  ///< What a user should know of what was read.
-  /// Files that were read into what stands above, such as trajectories and the meshes of Rigid IPC;
-  /// as MeshFile::path.
+  std::vector<std::string> warnings = {};  ///< Notes for the user about the files that were read.
+  /// Files that were read into the fields above, such as trajectories and the meshes of Rigid IPC.
+  ///
+  /// Paths are as MeshFile::path.
   std::vector<std::filesystem::path> files_read = {};
-  std::vector<FileReport> file_reports = {};  ///< What became of files of text.
+  std::vector<FileReport> file_reports = {};  ///< The reports on the files of text.
 };
 
 /// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.

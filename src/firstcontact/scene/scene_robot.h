@@ -32,13 +32,15 @@ struct RobotFile {
 
 /// A body that a link carries for a while; see Attachment.
 struct SceneAttachment {
-  std::size_t body = 0;                       ///< Of the scene.
-  std::size_t link = 0;                       ///< Of the robot.
+  std::size_t body = 0;                       ///< Index of the body in the scene.
+  std::size_t link = 0;                       ///< Index of the link in the robot.
   double from_time = 0.0;                     ///< [s]
-  std::optional<double> to_time = {};         ///< [s]  The end of the scene where there is none.
-  std::vector<std::size_t> touch_links = {};  ///< Of the robot.
-  /// The body's pose in the link from the start on, with from_time 0; without it, as it is at
-  /// from_time.
+  std::optional<double> to_time = {};         ///< [s]  Without it, the end of the scene.
+  std::vector<std::size_t> touch_links = {};  ///< Links of the robot that may touch the body
+                                              ///< meanwhile.
+  /// The body's pose in the link from the start on, with from_time 0.
+  ///
+  /// Without it the body keeps its place at from_time.
   std::optional<Pose> pose = {};
 };
 
@@ -47,11 +49,12 @@ struct SceneRobot {
   std::string name;  ///< Unique in the scene, bodies and groups included; not empty.
   RobotFile file;
   std::filesystem::path srdf = {};  ///< As MeshFile::path; may be empty.
-  RobotModel model;                 ///< Of the file, without shapes.
-  RobotSemantics semantics = {};    ///< Of the SRDF.
-  BodyMotion base = {};             ///< Of the root link; any but VertexMotion.
-  Trajectory trajectory = {};       ///< Without joint names where the robot only rests.
-  JointPositions state = {};  ///< Where the coordinates rest that the trajectory does not name.
+  RobotModel model;                 ///< The model of the file, without shapes.
+  RobotSemantics semantics = {};    ///< The contents of the SRDF.
+  BodyMotion base = {};             ///< The motion of the root link; any but VertexMotion.
+  Trajectory trajectory = {};  ///< The motion of the joints; without joint names the robot rests.
+  JointPositions state = {};   ///< Positions of coordinates that the trajectory does not name; they
+                               ///< rest there.
   std::vector<SceneAttachment> attached = {};
   std::map<std::size_t, double> padding = {};                ///< [m]  By link; >= 0.
   std::map<std::size_t, TrackingError> tracking_error = {};  ///< By joint.
@@ -60,7 +63,7 @@ struct SceneRobot {
   std::string srdf_digest = {};  ///< SHA-256 of the SRDF; may be empty.
 };
 
-/// The model of what can touch, without shapes: enough for names and limits.
+/// The model of the geometry that can touch, without shapes: it has names and limits.
 ///
 /// @throws ParseError as read_urdf
 [[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file,
@@ -68,13 +71,13 @@ struct SceneRobot {
 
 /// The coordinates of a named state of the SRDF.
 ///
-/// @param name  of a state, or GROUP/STATE
+/// @param name  STATE, or GROUP/STATE
 /// @throws std::invalid_argument if there is none, or more than one of this name
 [[nodiscard]] FIRSTCONTACT_API JointPositions group_state(const RobotModel& model,
                                                           const RobotSemantics& semantics,
                                                           std::string_view name);
 
-/// The error of a joint in the unit of its coordinate; of several coordinates in both units.
+/// The error of a joint in the unit of its coordinate; with several coordinates in both units.
 ///
 /// @param error  [rad or m]
 [[nodiscard]] FIRSTCONTACT_API TrackingError joint_error(const Joint& joint, double error);

@@ -30,7 +30,8 @@ struct RobotFile;
 struct CachedShape {
   Shape shape;
   std::string digest;  ///< SHA-256 of its files, in hexadecimal; empty where there is none.
-  std::shared_ptr<const FileReport> report = {};  ///< Of the file; null where there is none.
+  std::shared_ptr<const FileReport> report = {};  ///< The report on the file; null where there is
+                                                  ///< none.
 };
 
 /// A robot with the shapes of what can touch, and the digest of all its files.
@@ -40,35 +41,36 @@ struct CachedRobot {
   std::shared_ptr<const std::vector<FileReport>> files = {};  ///< As RobotReading::files.
 };
 
-/// A cache that makes each shape once, with its hierarchy, but for what a scene writes inline.
+/// A cache that makes each shape once, with its hierarchy, except for inline geometry of a scene.
 ///
 /// A file that changes after it was loaded is not read again. Thread-safe: a thread that needs a
-/// shape that another thread is making waits for it; different shapes are made side by side.
+/// shape that another thread is making waits for it. Different shapes are made side by side.
 class FIRSTCONTACT_API ShapeCache {
  public:
   /// Makes or finds the shape that a scene describes.
   ///
-  /// Coordinates of files are scaled in double precision; certificates hold for the rounded
+  /// Coordinates of files are scaled in double precision. Certificates hold for the rounded
   /// products.
   ///
-  /// @throws ParseError as read_mesh, and where no shape can be made of what was read;
-  ///         std::invalid_argument if a number is out of its range, or an inline solid not closed
+  /// @throws ParseError as read_mesh, and where no shape can be made of the file
+  /// @throws std::invalid_argument if a number is out of its range, or an inline solid not closed
   CachedShape load(const BodyShape& shape, const ReadingOptions& options = {});
 
-  /// Reads or finds a robot of a file, whose collision geometries are those of the surface that was
-  /// asked for.
+  /// Reads or finds a robot of a file, with the collision geometry of the surface that was asked
+  /// for.
   ///
   /// @throws ParseError as read_urdf, and where the surface has no geometry at all
   CachedRobot load(const RobotFile& file, const ReadingOptions& options = {});
 
-  /// Whether a shape's mesh is closed and its triangles agree on their inner side; looked at once
-  /// for each shape of a file.
+  /// Whether a shape's mesh is closed and its triangles agree on their inner side.
   ///
-  /// @param source  of a body; null for that of a link
+  /// It is computed once for each shape of a file.
+  ///
+  /// @param source  the shape's description in a body; null for that of a link
   bool encloses_space(const Shape& shape, const BodyShape* source);
 
  private:
-  /// The kind of shape, the file, and the bits of all numbers.
+  /// The kind of shape, the file, and the bits of all numbers of an entry.
   using Key = std::tuple<std::size_t, std::string, std::vector<std::uint64_t>>;
 
   struct Entry {
@@ -76,7 +78,7 @@ class FIRSTCONTACT_API ShapeCache {
     std::optional<CachedShape> shape;  // None before, or where it cannot be made.
   };
 
-  /// The surface, whether readers are lenient, and the paths.
+  /// The surface, whether readers are lenient, and the paths of an entry.
   using RobotKey = std::tuple<RobotSurface, bool, std::vector<std::filesystem::path>>;
 
   struct RobotEntry {
@@ -84,10 +86,10 @@ class FIRSTCONTACT_API ShapeCache {
     std::optional<CachedRobot> robot;
   };
 
-  std::mutex mutex_;  // Of the maps; their entries stay where they are.
+  std::mutex mutex_;  // Guards the maps; their entries stay where they are.
   std::map<Key, Entry> shapes_;
   std::map<RobotKey, RobotEntry> robots_;
-  /// The answers by the place of the shape's hierarchy; of shapes that the cache holds.
+  /// The answers by the address of the shape's hierarchy; the cache holds these shapes.
   std::map<const Hierarchy*, bool> encloses_space_;
 };
 

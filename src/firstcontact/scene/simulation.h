@@ -30,8 +30,8 @@ struct TimedForce {
 /// Its motion in the scene is fixed: the pose that it starts from. At most one of density and mass
 /// is given; with neither the density is 1000 kg/m^3.
 struct FreeBody {
-  std::optional<double> density;                  ///< [kg/m^3]  > 0; of the solid it encloses.
-  std::optional<double> mass;                     ///< [kg]  > 0
+  std::optional<double> density;  ///< [kg/m^3]  > 0  Density of the solid that the body encloses.
+  std::optional<double> mass;     ///< [kg]  > 0
   std::optional<Eigen::Vector3d> centre_of_mass;  ///< [m]  p_BC; else that of the solid.
   std::optional<Eigen::Matrix3d> inertia;         ///< [kg m^2]  About C, axes of the body frame;
                                                   ///< else that of the solid.
@@ -46,8 +46,10 @@ struct FreeBody {
 struct Surface {
   std::optional<double> friction;     ///< [-]  Coulomb's coefficient, >= 0.
   std::optional<double> restitution;  ///< [-]  Newton's, in [0, 1].
-  /// [m/s]  How fast the surface runs along the body, as a conveyor belt does; axes of the body
-  /// frame. Its part along a contact's normal has no effect.
+  /// [m/s]  Velocity at which the surface runs along the body, as a conveyor belt does; axes of the
+  /// body frame.
+  ///
+  /// Its part along a contact's normal has no effect.
   std::optional<Eigen::Vector3d> velocity = {};
 };
 
@@ -57,7 +59,7 @@ enum class ImpactLaw {
   simultaneous,  ///< Newton's law holds for all contacts at once.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of ImpactLaw in files and in Python, in this order.
 inline constexpr std::array<const char*, 2> kImpactLawWords{"sequential", "simultaneous"};
 
 /// The rule for scripts that would crush something that cannot yield.
@@ -66,7 +68,7 @@ enum class JamRule {
   wait,       ///< The scripted body stands still, and goes on with its script that much later.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of JamRule in files and in Python, in this order.
 inline constexpr std::array<const char*, 2> kJamRuleWords{"lose_time", "wait"};
 
 /// A number at a time.
@@ -88,20 +90,24 @@ struct JointMotor {
   ///
   /// It is linear between its times, which increase, and constant before and after.
   std::vector<TimedNumber> target = {};
-  std::optional<double> stiffness = {};  ///< [N m/rad or N/m]  > 0; none: there within a step.
+  std::optional<double> stiffness = {};  ///< [N m/rad or N/m]  > 0; without it the joint gets there
+                                         ///< within a step.
   double damping = 0.0;                  ///< [N m s/rad or N s/m]  >= 0; with a stiffness.
   std::optional<double> effort = {};     ///< [N m or N]  >= 0; else the model's limit, or none.
 };
 
-/// A robot that forces and contacts move. It starts at its `state`, where its base is.
+/// A robot that forces and contacts move. It starts at its `state`, with its base in place.
 struct RobotDynamics {
   bool has_free_base = false;  ///< Else the root link is held where it is.
-  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of a free base's origin.
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Velocity of a free base's
+                                                               ///< origin, world axes.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
   std::map<std::string, double, std::less<>> velocities = {};  ///< [rad/s or m/s]  By coordinate.
-  std::map<std::size_t, JointMotor> motors = {};               ///< By joint; of one coordinate.
-  std::optional<double> density = {};  ///< [kg/m^3]  > 0; of links that the model gives no mass.
-  Surface surface = {};                ///< Of all links.
+  std::map<std::size_t, JointMotor> motors = {};  ///< Motors by joint; the joint has one
+                                                  ///< coordinate.
+  std::optional<double> density = {};  ///< [kg/m^3]  > 0  Density of links that have no mass in the
+                                       ///< model.
+  Surface surface = {};                ///< Surface of all links.
 };
 
 /// The surface of one pair of bodies, in place of what their surfaces give.
@@ -124,10 +130,10 @@ struct Simulation {
   JamRule jams = JamRule::lose_time;
   /// [m]  > 0  The distance at which bodies that touch rest, up to one and a half of it.
   ///
-  /// The default is 1e-3 of the radius of the smallest free body. Without any it is
-  /// 5e-4 of that of the smallest link.
+  /// The default is 1e-3 of the radius of the smallest free body. Without any free body it is 5e-4
+  /// of the radius of the smallest link.
   std::optional<double> contact_distance;
-  std::size_t events = 1000;  ///< > 0  In a step; past them the step ends early.
+  std::size_t events = 1000;  ///< > 0  Most events in a step; past them the step ends early.
   std::vector<PairSurface> pairs;
   std::vector<Tie> ties = {};
 };

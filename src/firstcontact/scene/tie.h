@@ -14,13 +14,13 @@ namespace firstcontact {
 /// The law of a tie.
 enum class TieType {
   spring,  ///< A spring and a damper along the line between two points.
-  cable,   ///< Two points get no farther apart than a length; elastic where it has a stiffness.
+  cable,   ///< Two points get no farther apart than a length; elastic where a stiffness is given.
   pin,     ///< A point of each body is the same: a ball joint.
   hinge,   ///< The same, and a line through it is the same.
   weld,    ///< The two bodies move as one.
 };
 
-/// Its words in files and in Python, in this order.
+/// The words of TieType in files and in Python, in this order.
 inline constexpr std::array<const char*, 5> kTieTypeWords{"spring", "cable", "pin", "hinge",
                                                           "weld"};
 
@@ -31,17 +31,19 @@ struct Tie {
   TieType type = TieType::spring;
   /// Bodies or links, numbered as members of the scene; none: the world. Not both the world.
   std::array<std::optional<std::size_t>, 2> bodies = {};
-  /// [m]  A point of each body, in its frame, in that of the world for the world. Where a joint has
-  /// none for one body it is where that of the other body is at the start. A weld without points
-  /// has the origin of the second body.
+  /// [m]  A point of each body, in its frame; of the world, in the world's frame.
+  ///
+  /// A joint needs one point. For the other body it is then where that point is at the start. A
+  /// weld without points has the origin of the second body.
   std::array<std::optional<Eigen::Vector3d>, 2> points = {};
-  /// [m]  >= 0  At which a spring has no force, or the greatest of a cable; else the distance at
-  /// the start.
+  /// [m]  >= 0  The length at which a spring has no force, or the greatest length of a cable.
+  ///
+  /// By default it is the distance at the start.
   std::optional<double> length = {};
   std::optional<double> stiffness = {};             ///< [N/m]  > 0, of springs and elastic cables.
-  double damping = 0.0;                             ///< [N s/m]  >= 0, of the same.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of a hinge, in the frame of the first body;
-                                                    ///< not zero.
+  double damping = 0.0;                             ///< [N s/m]  >= 0, likewise.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Axis of a hinge in the frame of the first
+                                                    ///< body; not zero.
 };
 
 }  // namespace firstcontact

@@ -22,7 +22,8 @@ struct TrajectoryPoint {
   double time = 0.0;                       ///< [s]
   std::vector<double> positions = {};      ///< [rad or m]
   std::vector<double> velocities = {};     ///< [rad/s or m/s]  As many, or none.
-  std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  So too; not without velocities.
+  std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  As many, or none; only with
+                                           ///< velocities.
 };
 
 /// Positions at times: linear between them, cubic with velocities, quintic with accelerations too.
@@ -31,13 +32,14 @@ struct TrajectoryPoint {
 ///
 /// A planar joint has three names: NAME/x, NAME/y [m], NAME/theta [rad].
 struct Trajectory {
-  std::vector<std::string> joint_names;  ///< Each once.
-  std::vector<TrajectoryPoint> points;  ///< At least one. Times >= 0, strictly increasing; all have
-                                        ///< velocities (accelerations), or none has.
-  /// The way of continuous joints and of angles of planar ones between points; see
-  /// takes_short_way().
+  std::vector<std::string> joint_names;  ///< Names of coordinates, each once.
+  std::vector<TrajectoryPoint> points;  ///< At least one. Times are >= 0 and increase strictly; the
+                                        ///< same numbers are given in all points.
+  /// The way of continuous joints, and of the angles of planar ones, between points.
+  ///
+  /// See takes_short_way().
   Turning turning = Turning::as_given;
-  std::vector<std::string> warnings = {};  ///< What a user should know of the file that was read.
+  std::vector<std::string> warnings = {};  ///< Notes for the user about the file that was read.
 };
 
 /// Coordinates by the names that trajectories use [rad or m].
@@ -45,7 +47,7 @@ using JointPositions = std::map<std::string, double, std::less<>>;
 
 /// One coordinate of a joint.
 struct JointCoordinate {
-  std::size_t joint = 0;  ///< Of the model.
+  std::size_t joint = 0;  ///< Index of the joint in the model.
   std::size_t index = 0;  ///< 0; up to 2 for planar joints.
 
   friend auto operator<=>(const JointCoordinate&, const JointCoordinate&) = default;
@@ -74,8 +76,8 @@ struct JointCoordinate {
 /// interpolates.
 ///
 /// A continuous joint does, and the angle of a planar one. It does not where a joint mimics it and
-/// shows whole turns, sliding or by a multiplier that is no integer: the positions of that joint at
-/// the points hold for the way as given alone.
+/// shows whole turns: by sliding, or by a multiplier that is no integer. The positions of that
+/// joint at the points hold only for the way as given.
 [[nodiscard]] FIRSTCONTACT_API bool takes_short_way(const RobotModel& robot,
                                                     const JointCoordinate& coordinate);
 
@@ -86,12 +88,12 @@ struct JointCoordinate {
 
 /// The way that a continuous joint, or the angle of a planar one, went along a trajectory.
 struct JointTurn {
-  std::string joint;  ///< As trajectories name the coordinate.
-  double from = 0.0;  ///< [rad]  The numbers of the first and the last point.
-  double to = 0.0;
+  std::string joint;    ///< As trajectories name the coordinate.
+  double from = 0.0;    ///< [rad]  Position at the first point.
+  double to = 0.0;      ///< [rad]  Position at the last point.
   double turned = 0.0;  ///< [rad]  From the first point to the last; `to` - `from` as given.
   Turning turning = Turning::as_given;
-  /// Whether a step between two points is of more than half a turn: the ways differ.
+  /// Whether a step between two points is of more than half a turn, so that the two ways differ.
   bool differs = false;
 };
 
@@ -112,21 +114,22 @@ struct JointTurn {
 /// The joint motions of a robot over a scene, and the coordinates at default positions.
 struct TrajectoryMotion {
   std::map<std::string, JointMotion> joints;  ///< As RobotMotion takes them.
-  /// The coordinates that neither the trajectory nor the given positions name; they rest at their
-  /// default positions.
+  /// The coordinates that neither the trajectory nor the given positions name.
+  ///
+  /// They rest at their default positions.
   std::vector<std::string> at_default;
 };
 
 /// Makes joint motions over step time t = time / duration.
 ///
-/// Quotients of times, and velocities and accelerations per step, are rounded to doubles;
-/// certificates hold for the rounded numbers.
+/// Quotients of times are rounded to doubles, and so are velocities and accelerations per step.
+/// Certificates hold for the rounded numbers.
 ///
-/// Coordinates that the trajectory does not name rest: at `held`, else at default_position(). A
-/// joint that mimics another may be named as long as its positions agree, to 1e-6 (what six digits
-/// leave); it follows the other exactly. Floating and ball joints rest at the identity.
+/// Coordinates that the trajectory does not name rest at `held`, else at default_position(). A
+/// joint that mimics another may be named as long as its positions agree to 1e-6, the rounding of
+/// six digits. It follows the other exactly. Floating and ball joints rest at the identity.
 ///
-/// @param held      where coordinates rest that the trajectory does not name
+/// @param held      positions of coordinates that the trajectory does not name
 /// @param duration  [s]  > 0, at least the last time
 /// @throws std::invalid_argument  names the joint
 [[nodiscard]] FIRSTCONTACT_API TrajectoryMotion joint_motions(const RobotModel& robot,

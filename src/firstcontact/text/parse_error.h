@@ -12,25 +12,26 @@
 
 namespace firstcontact {
 
-/// A file that cannot be read: which one, where in it, and what was expected there.
+/// The error that a file cannot be read, with its place and what was expected there.
 ///
-/// what() is one line: "path:line: message", "path: byte N: message" or "path: message".
+/// Its text, what(), is one line: "path:line: message", "path: byte N: message" or "path: message".
 class FIRSTCONTACT_API ParseError : public std::runtime_error {
  public:
-  /// The file as a whole is wrong.
+  /// Makes the error that the file as a whole is wrong.
   ParseError(const std::string& path, const std::string& message);
 
-  /// A line of a text file is wrong; the first line is 1.
+  /// Makes the error that a line of a text file is wrong; the first line is 1.
   ParseError(const std::string& path, std::size_t line, const std::string& message);
 
-  /// A byte of a binary file is wrong; the first byte is 0.
+  /// Makes the error that a byte of a binary file is wrong; the first byte is 0.
   [[nodiscard]] static ParseError at_byte(const std::string& path, std::size_t offset,
                                           const std::string& message);
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const std::string& message() const { return message_; }
   [[nodiscard]] std::optional<std::size_t> line() const { return line_; }
-  [[nodiscard]] std::optional<std::size_t> offset() const { return offset_; }  ///< [byte]
+  /// [byte]  Place in a binary file.
+  [[nodiscard]] std::optional<std::size_t> offset() const { return offset_; }
 
  private:
   ParseError(const std::string& path, const std::string& place, const std::string& message);
