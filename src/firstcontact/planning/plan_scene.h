@@ -19,37 +19,38 @@ class ShapeCache;
 
 /// A question about a scene, ready for plan_path().
 struct ScenePlan {
-  /// All that stands still, and the mover at its start; its margin is that of the question. Members
-  /// are numbered as those of `plan`.
+  /// The whole scene at rest, with the mover at its start; its margin is that of the question.
+  ///
+  /// Members are numbered as those of `plan`.
   LoadedScene loaded;
   PlanScene plan;
   Configuration start;
   std::vector<Configuration> goals;
-  PlanOptions options;  ///< What the question has; else the defaults.
+  PlanOptions options;  ///< The options of the question; else the defaults.
 };
 
-/// Loads a scene and makes its question ready.
+/// Loads a scene and prepares its question.
 ///
-/// A robot begins where its trajectory does; one-point trajectories of other robots are where these
-/// rest. What a robot holds keeps the place in its link that it has at the start.
+/// A robot begins where its trajectory does. Other robots rest at their trajectories of one point.
+/// A body that a robot holds keeps its place in the link that it has at the start.
 ///
 /// @throws std::invalid_argument  names what cannot be planned: a joint or a goal that is none, a
-///         body or robot that moves by itself, a deforming body, a body that is held for a while
+///          body or robot that moves by itself, a deforming body, a body that is held for a while
 /// @throws as load_scene
 [[nodiscard]] FIRSTCONTACT_API ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question,
                                                          ShapeCache& cache);
 
-/// The question that the trajectory of a scene's only robot is: from its first to its last point.
+/// The question from the first to the last point of the trajectory of a scene's only robot.
 ///
 /// @throws std::invalid_argument if there is no such robot, or its trajectory has no two points
 [[nodiscard]] FIRSTCONTACT_API PlanQuestion question_of_trajectory(const Scene& scene);
 
 /// The contents of a path file.
 ///
-/// @param options  with which the path was planned
-/// @param result   with a path
+/// @param options  the options of the planner that found the path
+/// @param result   an answer with a path
 /// @throws std::invalid_argument  without a path, or if its edges are screws. Also for a seed of
-///         2^53 or more, which a path file cannot hold.
+///          2^53 or more, which a path file cannot hold.
 [[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
                                                         const PlanOptions& options,
                                                         const PlanResult& result);

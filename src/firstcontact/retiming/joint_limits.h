@@ -25,10 +25,10 @@ struct GivenLimits {
 
 /// Reads MoveIt's joint_limits.yaml, or the same as JSON.
 ///
-/// Under `joint_limits` each joint has `has_velocity_limits` and `max_velocity`, and so
-/// `acceleration`, `deceleration` and `jerk`. A limit whose `has_...` is false is none. Of an
-/// acceleration and a deceleration the smaller one limits both. Positions are the URDF's. Scaling
-/// factors are for requests, and are left out.
+/// Under `joint_limits` each joint has `has_velocity_limits` and `max_velocity`, and likewise for
+/// `acceleration`, `deceleration` and `jerk`. A limit whose `has_...` is false is none. The smaller
+/// one of an acceleration and a deceleration limits both. Positions are the URDF's. Scaling factors
+/// are for requests, and are left out.
 ///
 /// @param source  names the text in errors; its extension gives the format
 /// @param robot   as joined_model() where several robots move: joints are then ROBOT/NAME
@@ -42,14 +42,15 @@ struct GivenLimits {
 
 /// The limits of the joints of a path.
 ///
-/// For each number the first of these that has it: `given`, the robot (velocities alone), `others`.
-/// A velocity limit of 0 in the robot counts as none, as many files have it for an unknown one.
+/// Each number is that of the first source that has it: `given`, the robot (velocities alone),
+/// `others`. A velocity limit of 0 in the robot counts as none, as many files have it for an
+/// unknown one.
 ///
-/// A joint that others mimic is so slow that each of them keeps its own limits. Those have the same
-/// sources, but of `given` and the robot the smaller velocity counts.
+/// A joint that others mimic is so slow that each of them keeps its own limits. Their limits have
+/// the same sources, except that the smaller velocity of `given` and the robot counts.
 ///
 /// @throws std::invalid_argument  names the joint without a limit of velocity or acceleration, or
-///         with one that is not > 0. Also names a joint of `given` that the robot lacks.
+///          with one that is not > 0. Also names a joint of `given` that the robot lacks.
 [[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);

@@ -14,9 +14,10 @@
 
 namespace firstcontact {
 
+/// A rate of a joint coordinate.
 enum class JointRate { velocity, acceleration, jerk };
 
-/// Its words in messages and in files, in this order.
+/// The words of JointRate in messages and in files, in this order.
 inline constexpr std::array<const char*, 3> kJointRateWords{"velocity", "acceleration", "jerk"};
 
 /// The greatest size of one rate of one joint coordinate over a whole motion.
@@ -28,17 +29,18 @@ struct RateUse {
   double bound = 0.0;     ///< Proven: the motion has no greater size. Infinite where it jumps.
   double time = 0.0;      ///< [s]  To the nanosecond.
 
-  /// Proven: the limit holds everywhere.
+  /// Whether it is proven that the limit holds everywhere.
   [[nodiscard]] bool is_within() const { return bound <= limit; }
-  /// Proven: the limit does not hold at `time`.
+  /// Whether it is proven that the limit does not hold at `time`.
   [[nodiscard]] bool is_beyond() const { return attained > limit; }
 };
 
 /// Finds the greatest rates of a motion, as its controller interpolates, for each limit.
 ///
-/// They hold for the exact polynomials that the doubles of the points define, at all times between
-/// them. Intervals enclose every operation. A jump of the velocity is an infinite acceleration, one
-/// of the acceleration an infinite jerk. The rest before the first point and after the last counts.
+/// The rates hold for the exact polynomials that the doubles of the points define, at all times
+/// between them. Intervals enclose every operation. A jump of the velocity is an infinite
+/// acceleration. A jump of the acceleration is an infinite jerk. The rest before the first point
+/// and after the last counts.
 ///
 /// @param limits  as require_limits() demands
 /// @returns in the order of the joints, and of the rates that are limited

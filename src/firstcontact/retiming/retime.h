@@ -16,15 +16,17 @@
 
 namespace firstcontact {
 
+/// The way in which a path is timed.
 enum class RetimingMode {
-  stop,          ///< Rest at every waypoint; the geometry is that of the path.
+  stop,          ///< Rests at every waypoint; the geometry is that of the path.
   blend,         ///< Passes waypoints on blends, shrunk until they are proven free.
   time_optimal,  ///< As `blend`, nearly time-optimal along its geometry.
 };
 
-/// Its words on the command line, in this order.
+/// The words of RetimingMode on the command line, in this order.
 inline constexpr std::array<const char*, 3> kRetimingModeWords{"stop", "blend", "time_optimal"};
 
+/// The options of retiming.
 struct RetimingOptions {
   RetimingMode mode = RetimingMode::stop;
   ProofOptions proof = {};
@@ -32,21 +34,22 @@ struct RetimingOptions {
 
 /// A timed motion and its proof.
 struct RetimedMotion {
-  RetimingMode mode = RetimingMode::stop;  ///< That of the motion: `stop` where that is as fast.
+  RetimingMode mode = RetimingMode::stop;  ///< Mode of the motion: `stop` where that is as fast.
   TimedMotion motion = {};
-  ExecutedProof proof = {};    ///< Of `motion`; where it is not proven, what is in the way.
-  double stop_duration = 0.0;  ///< [s]  With rest at every waypoint.
-  std::size_t blends = 0;      ///< Waypoints that are passed.
-  std::size_t shortened = 0;   ///< Times that a blend was made shorter, as it was not free.
+  ExecutedProof proof = {};    ///< Proof of `motion`; where it is not proven, it has the obstacle.
+  double stop_duration = 0.0;  ///< [s]  Duration with rest at every waypoint.
+  std::size_t blends = 0;      ///< Number of waypoints that are passed.
+  std::size_t shortened = 0;   ///< Number of times that a blend was shortened because it was not
+                               ///< free.
 };
 
-/// Times a path as fast as its mode does, and proves what a controller makes of it.
+/// Times a path as fast as its mode allows, and proves what a controller makes of it.
 ///
-/// Where the rounding of numbers takes a limit, a little less of all limits is used. Where a blend
-/// is in contact or undecided, it is made shorter. The result is never slower than with rest at
-/// every waypoint. It is proven, or `proof` has the pair and the time that are in the way.
+/// Where the rounding of numbers exceeds a limit, a little less of all limits is used. Where a
+/// blend is in contact or undecided, it is made shorter. The result is never slower than with rest
+/// at every waypoint. It is proven, or `proof` has the pair and the time of the obstacle.
 ///
-/// @param limits  of each joint name of the path
+/// @param limits  one for each joint name of the path
 /// @throws std::invalid_argument  names the joint, the waypoint, or what else in the scene moves
 [[nodiscard]] FIRSTCONTACT_API RetimedMotion retime(const WaypointPath& path,
                                                     const std::vector<RateLimits>& limits,

@@ -21,18 +21,20 @@ namespace firstcontact {
 /// A path of one robot or several in a scene.
 struct RetimingPath {
   Scene scene = {};
-  std::vector<std::size_t> robots = {0};  ///< That move, of the scene.
-  /// Its numbers go the way that the joints turn. Joints are ROBOT/NAME where several robots move.
+  std::vector<std::size_t> robots = {0};  ///< The robots of the scene that move.
+  /// The path, whose numbers go the way that the joints turn. Joints are ROBOT/NAME where several
+  /// robots move.
   WaypointPath path = {};
   /// Pairs that are in contact at an end of the path, and the distances that they are held to.
   std::vector<NamedContactPair> contact_pairs = {};
-  std::string input_digest = {};  ///< Of all that the path was planned with; may be empty.
+  std::string input_digest = {};  ///< Digest of all files that the path was planned with; may be
+                                  ///< empty.
   bool is_approximate = false;    ///< It ends before its goal.
 };
 
-/// Reads what retiming needs of the text of a path file.
+/// Reads the part of a path file that retiming needs from its text.
 ///
-/// @param name  the file that the text is from, for errors
+/// @param name  the file of the text, for errors
 /// @throws ParseError  where it is no path, or one of a body
 [[nodiscard]] FIRSTCONTACT_API RetimingPath parse_retiming_path(std::string_view text,
                                                                 const std::string& name,
@@ -40,7 +42,7 @@ struct RetimingPath {
 
 /// Takes the path of a robot from a scene: the positions of its trajectory, without their times.
 ///
-/// @param robot  its name; may be empty where the scene has one alone
+/// @param robot  its name; may be empty where the scene has only one
 /// @throws std::invalid_argument if there is none, or the robot has no trajectory
 [[nodiscard]] FIRSTCONTACT_API RetimingPath retiming_path_of(Scene scene,
                                                              const std::string& robot = {});
@@ -55,13 +57,13 @@ struct RetimingPath {
 
 /// Reads the text of a path file or of a scene file, as read_retiming_path() reads the file.
 ///
-/// @param file  that the text is from: named in errors; relative paths begin in its folder
+/// @param file  the file of the text: named in errors; relative paths begin in its folder
 [[nodiscard]] FIRSTCONTACT_API RetimingPath parse_path_or_scene(std::string_view text,
                                                                 const std::filesystem::path& file,
                                                                 const std::string& robot = {},
                                                                 const ReadingOptions& options = {});
 
-/// A scene with all that loading it found, ready for proofs.
+/// A scene with the findings of its loading, ready for proofs.
 struct LoadedRetimingScene {
   LoadedScene loaded;
   RetimingScene where;

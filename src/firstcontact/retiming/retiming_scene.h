@@ -15,31 +15,34 @@
 
 namespace firstcontact {
 
-/// A pair that is in contact at an end of the path. It is held to a distance of its own, in place
-/// of its margin and paddings.
+/// A pair that is in contact at an end of the path.
+///
+/// A distance of its own holds it, in place of its margin and paddings.
 struct RetimingHold {
   BodyPair members = {};
   double distance = 0.0;  ///< [m]  > 0.
   /// [rad or m]  The waypoint at which the pair has to be open, in the order of the motion's
-  /// joints. Empty where it is held all the time. A pair that opens after the start is held until
-  /// the motion first rests there. One that is in contact at the goal is held from the last such
-  /// rest on. At that rest and all other times the pair keeps its margin.
+  /// joints.
+  ///
+  /// It is empty where the pair is held all the time. A pair that opens after the start is held
+  /// until the motion first rests there. A pair that is in contact at the goal is held from the
+  /// last such rest on. At that rest and all other times the pair keeps its margin.
   std::vector<double> opens_at = {};
   PathEnd at = PathEnd::start;
 };
 
-/// The robots that move, and all around them, which rests.
+/// The moving robots in their resting environment.
 ///
 /// Several robots are one motion with one clock. The robots' joints that the motion does not name
 /// rest where they are in the scene at t = 0. Bodies that a robot holds all the time move with it.
 /// Tracking errors of the scene are the controller's tolerance.
 struct RetimingScene {
   RobotScene scene;
-  std::vector<std::size_t> robots = {0};  ///< Of the scene; one or more, each once.
+  std::vector<std::size_t> robots = {0};  ///< Robots of the scene; one or more, each once.
   std::vector<RetimingHold> holds = {};   ///< Each pair once.
 };
 
-/// The robots that move as one model: limits and files of their joints are read by it.
+/// The moving robots as one model, by which limits and files of their joints are read.
 ///
 /// One robot is its own model. With several, joint NAME of robot ROBOT is called ROBOT/NAME, as in
 /// path files, and has the limits of that joint. Their links then have no geometry, and hang on a

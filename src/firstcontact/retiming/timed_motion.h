@@ -14,7 +14,7 @@
 
 namespace firstcontact {
 
-/// [ns]  No motion is longer: doubles of seconds tell nanoseconds apart up to here, 13 days.
+/// [ns]  The longest motion. Doubles of seconds distinguish nanoseconds up to here, 13 days.
 inline constexpr double kLatestTime = 0x1p50;
 
 /// The rates that a joint coordinate may have.
@@ -29,15 +29,16 @@ struct TimedPoint {
   std::int64_t time = 0;                   ///< [ns]
   std::vector<double> positions = {};      ///< [rad or m]
   std::vector<double> velocities = {};     ///< [rad/s or m/s]  As many, or none.
-  std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  So too; not without velocities.
+  std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  As many, or none; only with
+                                           ///< velocities.
 
   friend bool operator==(const TimedPoint&, const TimedPoint&) = default;
 };
 
 /// The points between which a controller interpolates.
 ///
-/// That is linear with positions alone, cubic with velocities, quintic with accelerations too. The
-/// robot rests before the first point and after the last one.
+/// The interpolation is linear with positions alone, cubic with velocities, quintic with
+/// accelerations too. The robot rests before the first point and after the last one.
 struct TimedMotion {
   std::vector<std::string> joint_names = {};  ///< As trajectories name coordinates, each once.
   /// At least one. Times increase strictly; all points have the same kinds of numbers.
@@ -49,7 +50,7 @@ struct TimedMotion {
   [[nodiscard]] bool has_accelerations() const {
     return !points.empty() && !points.front().accelerations.empty();
   }
-  /// [s]  From the time 0 to the last point, rounded.
+  /// [s]  Time from 0 to the last point, rounded.
   [[nodiscard]] double duration() const {
     return points.empty() ? 0.0 : static_cast<double>(points.back().time) / 1e9;
   }

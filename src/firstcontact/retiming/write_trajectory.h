@@ -29,8 +29,8 @@ inline constexpr std::array<const char*, 3> kTrajectoryEndings{".yaml", ".json",
 
 /// Writes a motion. Numbers read back to the same doubles, times are written to the nanosecond.
 ///
-/// In YAML every number has a point, and every exponent a sign: readers of YAML 1.1, such as that
-/// of ROS, take others for words.
+/// In YAML every number has a point, and every exponent a sign. Readers of YAML 1.1, such as that
+/// of ROS, take other numbers for words.
 [[nodiscard]] FIRSTCONTACT_API std::string write_trajectory(const TimedMotion& motion,
                                                             TrajectoryFormat format);
 

@@ -22,7 +22,7 @@ namespace firstcontact {
 struct PairClaim {
   std::array<std::string, 2> pair;
   Verdict verdict = Verdict::undecided;
-  double t = 0.0;               ///< [-]  The pair is claimed to be free before it.
+  double t = 0.0;               ///< [-]  Time before which the pair is claimed to be free.
   double tolerance_used = 0.0;  ///< [m]
   double margin = 0.0;          ///< [m]
   double time = 0.0;            ///< [s]
@@ -31,30 +31,32 @@ struct PairClaim {
 
 /// The claims of the result of a scene.
 struct ResultClaims {
-  /// Its paths are as they were opened. Its text_digest is that of the text that was checked, and
-  /// empty in results that do not state it.
+  /// The scene of the result. Its paths are as they were opened.
+  ///
+  /// Its text_digest is that of the checked text, and empty in results that do not state it.
   Scene scene;
   std::string version;
   std::string input_digest;  ///< SHA-256 of everything that was read.
   /// Whether the scene in the result is the one that was checked, by its digest; none in results
-  /// that do not state one.
+  /// without a digest.
   std::optional<bool> has_own_scene = {};
   Verdict verdict = Verdict::undecided;
   double t = 0.0;                                       ///< [-]
   double time = 0.0;                                    ///< [s]
-  std::optional<std::array<std::string, 2>> pair = {};  ///< That decides t.
+  std::optional<std::array<std::string, 2>> pair = {};  ///< The pair that determines t.
   double clearance = 0.0;                               ///< [m]  Infinite where no pair is tested.
-  double tolerance_used = 0.0;  ///< [m]  As the result states it, else that of the scene.
-  std::size_t tested = 0;       ///< Pairs.
-  std::optional<std::vector<PairClaim>> pairs = {};  ///< Of every pair, where it was asked for.
+  double tolerance_used = 0.0;  ///< [m]  Tolerance that the result states, else that of the scene.
+  std::size_t tested = 0;       ///< Number of pairs.
+  std::optional<std::vector<PairClaim>> pairs = {};  ///< The answer of every pair, where it was
+                                                     ///< asked for.
 };
 
-/// Reads what a result claims.
+/// Reads the claims of a result.
 ///
 /// @param result  one JSON object, as write_result writes it
-/// @param source  the file that it is from, named in errors
-/// @param line    of that file
-/// @throws ParseError if it is none, or its scene is none
+/// @param source  the file of the result, named in errors
+/// @param line    the line of that file
+/// @throws ParseError if it is no result, or its scene is no scene
 [[nodiscard]] FIRSTCONTACT_API ResultClaims read_claims(std::string_view result,
                                                         const std::filesystem::path& source,
                                                         std::size_t line = 1,

@@ -17,7 +17,7 @@ struct LoadedScene;
 
 /// Parses the text of a path file.
 ///
-/// Checked is the form: keys, kinds of values, counts that belong together, names that the scene
+/// It checks the form: keys, kinds of values, counts that belong together, names that the scene
 /// has. Nothing is proven, and no mesh is read.
 ///
 /// @param source  names the text in errors
@@ -30,9 +30,10 @@ struct LoadedScene;
 [[nodiscard]] FIRSTCONTACT_API PlannedPath read_planned_path(const std::filesystem::path& file,
                                                              const ReadingOptions& options = {});
 
-/// Reads the meshes and robots that the scene of a path names.
+/// Loads the scene of a path, with its meshes and robots.
 ///
-/// @throws std::invalid_argument if one of them is not what it was when the path was planned
+/// @throws std::invalid_argument if a file has changed since the path was planned
+/// @throws as load_scene
 /// @throws as load_scene
 [[nodiscard]] FIRSTCONTACT_API LoadedScene load_scene_of(const PlannedPath& path,
                                                          ShapeCache& cache);

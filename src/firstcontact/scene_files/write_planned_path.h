@@ -11,7 +11,7 @@ namespace firstcontact {
 
 struct PlannedPath;
 
-/// One JSON object on one line. Numbers read back to the same double.
+/// Writes a path as one JSON object on one line. Numbers read back to the same double.
 ///
 /// @throws std::invalid_argument if a number is not finite
 [[nodiscard]] FIRSTCONTACT_API std::string write_planned_path(const PlannedPath& path);

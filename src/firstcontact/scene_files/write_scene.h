@@ -13,11 +13,11 @@ struct Scene;
 
 /// Writes the resolved scene as one JSON object on one line.
 ///
-/// Poses are written as position and quaternion, with every default. Inline meshes are embedded,
-/// mesh files named by their path as opened.
+/// Poses are written as position and quaternion, with every default. Inline meshes are embedded.
+/// Mesh files are named by their path as opened.
 ///
 /// Numbers are the shortest that read back to the same double. With a source in the working
-/// directory parse_scene gives the same scene bit for bit, but for its text digest.
+/// directory parse_scene() gives the same scene bit for bit, except for its text digest.
 [[nodiscard]] FIRSTCONTACT_API std::string write_scene(const Scene& scene);
 
 }  // namespace firstcontact

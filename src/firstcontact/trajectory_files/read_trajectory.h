@@ -15,14 +15,15 @@ namespace firstcontact {
 /// Reads a trajectory for a robot (docs/trajectories.md).
 ///
 /// - .json, .yaml, .yml: `joint_names` and `points` with `time` [s], `positions`, and if wanted
-///   `velocities` and `accelerations`; or trajectory_msgs/JointTrajectory as ROS prints it, alone
-///   or inside of a message that holds one. A single trajectory; unknown keys are errors.
-/// - .csv: a header with `time` and joint names, then a line of numbers for each point; columns
-///   separated by commas, semicolons, tabs or blanks. Columns NAME.velocity and NAME.acceleration,
-///   where there are any, of every joint.
+///   `velocities` and `accelerations`. Or trajectory_msgs/JointTrajectory as ROS prints it, alone
+///   or inside of a message that holds one. The file has a single trajectory; unknown keys are
+///   errors.
+/// - .csv: a header with `time` and joint names, then a line of numbers for each point. Commas,
+///   semicolons, tabs or blanks separate columns. Columns NAME.velocity and NAME.acceleration,
+///   where there are any, are there for every joint.
 ///
-/// A point that stands twice is taken once, and columns of joints that are fixed and do not move
-/// are left out; `warnings` say so. Points that contradict each other are an error.
+/// A point that stands twice is taken once. Columns of joints that are fixed and do not move are
+/// left out. `warnings` report both. Points that contradict each other are an error.
 ///
 /// Numbers are read exactly, whatever the locale.
 ///
