@@ -14,14 +14,18 @@
 
 namespace firstcontact {
 
-/// Collects numbers, in the order of bytes that every browser of today has: the least first.
+/// Collects numbers as bytes, the least significant first, as every browser of today has them.
 class FIRSTCONTACT_API PageNumbers {
  public:
+  /// Adds a number in single precision.
   void add(float number);
+  /// Adds a number in double precision.
   void add(double number);
-  void add(const Eigen::Vector3d& v);  ///< Three in double precision.
+  void add(const Eigen::Vector3d& v);  ///< Adds three numbers in double precision.
 
-  /// @param size  [byte]  of the number, up to 8: the lowest ones
+  /// Adds the lowest bytes of a whole number.
+  ///
+  /// @param size  [byte]  1 to 8
   void add(std::uint64_t number, int size);
 
   /// [byte]  The size of all numbers together.

@@ -26,10 +26,11 @@ struct GapChart {
 
 /// Fills the viewer's page (share/firstcontact/viewer.html) with a result.
 ///
-/// The page holds the result word for word, the mesh of every body (each once, however many bodies
-/// share it; vertices in single precision, relative to the middle of the mesh) and the gap. Of
-/// robots it holds joints with their paths, what links are made of, and what they look like: those
-/// meshes are read here, and what cannot be read is left out with a warning in the page.
+/// The page holds the result word for word, the gap, and the mesh of every body. A mesh that
+/// several bodies share is there once. Its vertices are in single precision, relative to the middle
+/// of the mesh. For robots the page holds joints with their paths, and the geometries and looks of
+/// links. The meshes of looks are read here. A mesh that cannot be read is left out, with a warning
+/// in the page.
 ///
 /// @param page_template  the viewer's page
 /// @param loaded         the scene of the result
@@ -40,13 +41,13 @@ struct GapChart {
                                                       const LoadedScene& loaded,
                                                       std::string_view result, const GapChart& gap);
 
-/// A record that the viewer knows beside results, such as a run.
+/// A record other than a result that the viewer can show, such as a run.
 struct PageRecord {
-  std::string_view name;  ///< By which the viewer knows it.
+  std::string_view name;  ///< Name by which the viewer knows the record.
   std::string_view json;
 };
 
-/// Fills the viewer's page with another record, and with the looks of its bodies as above.
+/// Fills the viewer's page with another record, and with the looks of its bodies.
 ///
 /// Beside it stand the scene's warnings, files and counts of pairs, which a result has itself.
 ///
@@ -57,7 +58,7 @@ struct PageRecord {
 
 /// A page of the viewer with a list of results, each of which it plays.
 ///
-/// A mesh that several results have stands in the page once. There is no gap over time: it would
+/// A mesh that several results have stands in the page once. There is no gap over time, as it would
 /// have to be sampled.
 class FIRSTCONTACT_API ListPage {
  public:
@@ -86,7 +87,7 @@ class FIRSTCONTACT_API ListPage {
 
   std::string entries_;
   std::vector<std::string> meshes_;
-  std::unordered_map<std::string, std::size_t> of_digests_;  // SHA-256 of the mesh.
+  std::unordered_map<std::string, std::size_t> of_digests_;  // By the SHA-256 of the mesh.
   std::size_t size_ = 0;
 };
 

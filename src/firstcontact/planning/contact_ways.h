@@ -37,7 +37,7 @@ class FIRSTCONTACT_API ContactWays {
   /// @param range  the length, in that of the space, up to about which a single step of a slide
   ///               grows; 0 for a share of it. Steps that repeat an earlier slide may be longer
   /// @throws std::invalid_argument if the range is below 0 or not finite; if it is 0 where a joint
-  ///          slides without limits
+  ///         slides without limits
   explicit ContactWays(std::shared_ptr<const EdgeChecker> edges, double range = 0.0);
   ~ContactWays();
   ContactWays(ContactWays&&) noexcept;

@@ -35,7 +35,7 @@ struct ScenePlan {
 /// A body that a robot holds keeps its place in the link that it has at the start.
 ///
 /// @throws std::invalid_argument  names what cannot be planned: a joint or a goal that is none, a
-///          body or robot that moves by itself, a deforming body, a body that is held for a while
+///         body or robot that moves by itself, a deforming body, a body that is held for a while
 /// @throws as load_scene
 [[nodiscard]] FIRSTCONTACT_API ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question,
                                                          ShapeCache& cache);
@@ -50,7 +50,7 @@ struct ScenePlan {
 /// @param options  the options of the planner that found the path
 /// @param result   an answer with a path
 /// @throws std::invalid_argument  without a path, or if its edges are screws. Also for a seed of
-///          2^53 or more, which a path file cannot hold.
+///         2^53 or more, which a path file cannot hold.
 [[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
                                                         const PlanOptions& options,
                                                         const PlanResult& result);

@@ -16,17 +16,16 @@ namespace firstcontact {
 
 /// Reads the lines of a run in order; holds one of them at a time.
 ///
-/// Strict, as scenes are: a key that is missing, unknown or of the wrong type is an error. So are a
-/// body that the scene does not have, a step out of order, and pieces that do not end with their
-/// step.
-/// Doubles are those that were written, bit for bit.
+/// The reader is strict, as for scenes: a key that is missing, unknown or of the wrong type is an
+/// error. So are a body that the scene does not have, a step out of order, and pieces that do not
+/// end with their step. Doubles are those that were written, bit for bit.
 class FIRSTCONTACT_API RunReader {
  public:
   /// Reads the header. Paths in its scene are as they were opened by the simulation.
   ///
-  /// @param run   outlives the reader
-  /// @param path  of the file, for errors: "path:line: what was expected"
-  /// @param options  of the files of its scene
+  /// @param run      outlives the reader
+  /// @param path     name of the file, for errors: "path:line: what was expected"
+  /// @param options  for the files of its scene
   /// @throws ParseError if there is no header
   RunReader(std::istream& run, std::string path, const ReadingOptions& options = {});
 
@@ -37,13 +36,14 @@ class FIRSTCONTACT_API RunReader {
   /// @throws ParseError if a line is no step, or the stream cannot be read
   [[nodiscard]] std::optional<RunStep> next();
 
-  /// Whether the run ends in the middle of a line, as a killed simulation leaves it. Known when
-  /// next() has returned none.
+  /// Whether the run ends in the middle of a line, as a killed simulation leaves it.
+  ///
+  /// It is known when next() has returned none.
   [[nodiscard]] bool is_cut_off() const { return cut_off_; }
 
   /// [byte]  The end of the last whole line that was read.
   ///
-  /// A run that was cut off is one that can go on when its file is cut to this size.
+  /// A run that was cut off can go on when its file is cut to this size.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
@@ -56,7 +56,7 @@ class FIRSTCONTACT_API RunReader {
   std::uint64_t size_ = 0;
   bool cut_off_ = false;
   RunHeader header_;
-  std::size_t bodies_ = 0;  // Pieces of links among them.
+  std::size_t bodies_ = 0;  // Bodies of the scene and of links.
 };
 
 }  // namespace firstcontact

@@ -12,12 +12,12 @@ namespace firstcontact {
 struct RunHeader;
 struct RunStep;
 
-/// The first line of a run, with its line feed. Numbers read back to the same double.
+/// Writes the first line of a run, with its line feed. Numbers read back to the same double.
 ///
 /// @throws std::invalid_argument if a number is not finite
 [[nodiscard]] FIRSTCONTACT_API std::string write_run_header(const RunHeader& header);
 
-/// The line of a step, with its line feed. A line without it is one that was not written whole.
+/// Writes the line of a step, with its line feed. A line without it was not written whole.
 ///
 /// @throws std::invalid_argument if a number is not finite, but for the clearance
 [[nodiscard]] FIRSTCONTACT_API std::string write_run_step(const RunStep& step);

@@ -79,7 +79,7 @@ struct ProofOptions {
 ///
 /// @param limits  one for each joint name of the motion
 /// @throws std::invalid_argument  names the joint that no robot has, or what else moves; or the
-///          motion does not rest where a pair has to be open
+///         motion does not rest where a pair has to be open
 [[nodiscard]] FIRSTCONTACT_API ExecutedProof prove_motion(const TimedMotion& motion,
                                                           const std::vector<RateLimits>& limits,
                                                           const RetimingScene& where,

@@ -54,7 +54,7 @@ struct RetimingScene {
 /// Splits a motion into those of the robots, whose joints have the robots' own names.
 ///
 /// @returns in the order of `where.robots`, all with the times of the motion. A robot of which the
-///          motion names no joint has none there.
+///         motion names no joint has none there.
 /// @throws std::invalid_argument as joined_model(). Also where no robot has a joint; it is named.
 [[nodiscard]] FIRSTCONTACT_API std::vector<TimedMotion> split_motion(const TimedMotion& motion,
                                                                      const RetimingScene& where);

@@ -22,7 +22,7 @@ struct WaypointPath {
 /// Refuses a path that makes no sense.
 ///
 /// @throws std::invalid_argument  names the waypoint, counted from 1: there is only one, it repeats
-///          the one before, or has a wrong count of numbers, NaN, or one beyond 1e8 in size
+///         the one before, or has a wrong count of numbers, NaN, or one beyond 1e8 in size
 FIRSTCONTACT_API void require_path(const WaypointPath& path);
 
 /// The path with the turns of coordinates that go the short way taken into its numbers.

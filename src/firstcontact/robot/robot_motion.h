@@ -72,8 +72,8 @@ class FIRSTCONTACT_API RobotMotion {
   /// @param joints  the motion of every joint that moves, by name; mimic joints follow theirs
   /// @param base    the motion of the root link in the world
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it
-  ///          is fixed, mimics another, or is not of the robot; a joint that is not continuous is
-  ///          to take the shortest way
+  ///         is fixed, mimics another, or is not of the robot; a joint that is not continuous is
+  ///         to take the shortest way
   RobotMotion(RobotModel model, std::map<std::string, JointMotion> joints,
               Motion base = Motion::fixed());
 

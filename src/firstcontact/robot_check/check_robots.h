@@ -59,7 +59,7 @@ struct RobotCheckOptions {
 /// first contact.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range, or not for this
-///          scene
+///         scene
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_robots(const RobotScene& scene,
                                                         const RobotCheckOptions& options = {});
 

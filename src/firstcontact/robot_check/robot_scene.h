@@ -78,8 +78,7 @@ struct BodyStretch {
 /// member, a robot as many as it has links. Three things determine which pairs of members are
 /// tested, and how far apart they have to stay:
 /// - Links of one robot are never tested if they are adjacent, or only fixed joints connect them.
-/// Nor
-///   are two bodies that both rest over the whole step.
+///   Two bodies that both rest over the whole step are not tested either.
 /// - rules() ignores pairs and gives margins.
 /// - A link that holds a body, and touch links, are not tested against it meanwhile.
 ///

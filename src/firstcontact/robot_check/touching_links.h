@@ -33,7 +33,7 @@ struct LinkPairIndex {
 /// @param motion  the motion of a robot whose collision shapes were made (LoadShapes)
 /// @param margin  [m]  >= 0
 /// @throws std::invalid_argument if a collision geometry has no shape, or the margin is out of
-///          range
+///         range
 [[nodiscard]] FIRSTCONTACT_API std::vector<LinkPairIndex> touching_links(const RobotMotion& motion,
                                                                          double margin = 0.0);
 

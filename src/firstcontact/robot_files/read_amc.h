@@ -18,7 +18,7 @@ struct AsfSkeleton;
 ///
 /// @param frame_time  [s]  > 0; the file does not state it
 /// @throws ParseError  as read_asf, and for an unknown, missing or repeated bone. Frames must count
-///          up by one.
+///         up by one.
 /// @throws std::invalid_argument if the frame time is out of its range
 [[nodiscard]] FIRSTCONTACT_API MotionCapture read_amc(const std::filesystem::path& path,
                                                       const AsfSkeleton& skeleton,

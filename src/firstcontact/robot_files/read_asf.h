@@ -44,7 +44,7 @@ struct AsfOptions {
 /// parents. The reader passes over limits and masses.
 ///
 /// @throws ParseError  one line with path, line and what was expected: an axis order other than
-///          XYZ, a dof other than rx, ry, rz, a bone that is not in the hierarchy, ...
+///         XYZ, a dof other than rx, ry, rz, a bone that is not in the hierarchy, ...
 /// @throws std::invalid_argument if an option is out of its range
 [[nodiscard]] FIRSTCONTACT_API AsfSkeleton read_asf(const std::filesystem::path& path,
                                                     const AsfOptions& options = {});

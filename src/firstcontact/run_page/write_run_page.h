@@ -27,10 +27,10 @@ class FIRSTCONTACT_API RunPage {
  public:
   explicit RunPage(const RunHeader& header);
 
-  /// The next step, from the first one on.
+  /// Adds the next step, from the first one on.
   void add(const RunStep& step);
 
-  /// [s]  The end of the last step. A page plays some time: it is written when this is > 0.
+  /// [s]  The end of the last step. A page can be written when this is > 0.
   [[nodiscard]] double time() const { return time_; }
 
   /// Fills the viewer's page (share/firstcontact/viewer.html).
@@ -40,15 +40,16 @@ class FIRSTCONTACT_API RunPage {
   [[nodiscard]] std::string write(std::string_view page_template, const LoadedScene& loaded) const;
 
  private:
-  /// The polyline of a body: where each piece begins, and after the last one where it ends. The
-  /// centre of mass moves on a line from one place to the next, while the body turns about it.
+  /// The polyline of a body: where each piece begins, and after the last one where it ends.
+  ///
+  /// The centre of mass moves on a line from one place to the next, while the body turns about it.
   struct Polyline {
     PageNumbers times;      // [s]
-    PageNumbers places;     // [m]  Of the centre of mass.
+    PageNumbers places;     // [m]  Places of the centre of mass.
     PageNumbers rotations;  // w, x, y, z of R_WB
     PageNumbers turns;      // [rad]  Rotation vector until the next place.
     double end = 0.0;       // [s]
-    Pose X_WB;              // There.
+    Pose X_WB;              // Pose at the end.
   };
 
   void begin_piece(std::size_t body, double time, const Pose& X_WB, const Eigen::Vector3d& turn);
@@ -63,9 +64,9 @@ class FIRSTCONTACT_API RunPage {
   std::vector<Eigen::Vector3d> centres_of_mass_;
   double time_ = 0.0;  // [s]
   std::string steps_;
-  std::vector<Polyline> polylines_;  // Of every body; of those at rest empty.
+  std::vector<Polyline> polylines_;  // One for every body; empty for bodies at rest.
   std::uint64_t contact_count_ = 0;
-  PageNumbers contacts_until_;  // Of each step: how many there are with those before.
+  PageNumbers contacts_until_;  // For each step the number of contacts up to its end.
   PageNumbers contact_bodies_;
   PageNumbers points_;     // [m]
   PageNumbers impulses_;   // [N s]

@@ -43,7 +43,7 @@ struct CheckOptions {
 ///
 /// @returns times normalised to the duration of the scene; members are numbered as in it
 /// @throws std::invalid_argument if an option of the scene is outside its range, or not for scenes
-///          with robots
+///         with robots
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_scene(const LoadedScene& loaded,
                                                        ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});

@@ -26,16 +26,17 @@ struct LoadedScene;
 ///
 /// Within a step the in-between motion of every body is known, and every pair is proven apart over
 /// all of it. When a step's events are spent, it ends at the last time proven free: time is lost,
-/// never a distance. Or a script that would crush something waits (JamRule). The same on every run
-/// on one kind of processor.
+/// never a distance. Or a script that would crush something waits (JamRule). The run is the same
+/// every time on one kind of processor.
 ///
-/// Motion between contacts is exact in free flight under constant forces (but for turning, which is
-/// of second order in the step). In contact it is of second order, too. It is of first order where
-/// a contact begins, ends or sticks within a step, or motors hold a robot nearly still.
+/// In free flight under constant forces the motion is exact, except for rotation, which is of
+/// second order in the step. In contact the motion is of second order, too. It is of first order
+/// where a contact begins, ends or sticks within a step, or motors hold a robot nearly still.
 ///
-/// Method: free velocities, Gauss' principle at the contacts, first contact over all pairs,
-/// everything placed there, the impact projected, and on with the rest of the step. Bodies that
-/// cannot influence each other within a step advance apart.
+/// Method: a step begins with free velocities and Gauss' principle at the contacts. The first
+/// contact over all pairs ends this motion. All bodies are placed there, the impact is projected,
+/// and the rest of the step follows. Bodies that cannot influence each other within a step advance
+/// separately.
 class FIRSTCONTACT_API Simulator {
  public:
   /// Prepares the simulation of a scene.
@@ -52,10 +53,10 @@ class FIRSTCONTACT_API Simulator {
 
   [[nodiscard]] const RunHeader& header() const;
   /// The scene with links of robots as bodies, the warnings of reading, and the counts of pairs
-  /// held apart.
+  /// that are held apart.
   [[nodiscard]] const LoadedScene& loaded() const;
-  [[nodiscard]] double time() const;             ///< [s]  Simulated so far.
-  [[nodiscard]] std::size_t step_count() const;  ///< Steps taken.
+  [[nodiscard]] double time() const;             ///< [s]  Simulated time so far.
+  [[nodiscard]] std::size_t step_count() const;  ///< Number of steps so far.
 
   /// The states of every body of the scene, then of the link bodies (LinksAsBodies).
   ///
@@ -64,9 +65,10 @@ class FIRSTCONTACT_API Simulator {
 
   /// Moves a free body elsewhere, or gives it other velocities.
   ///
+  /// Where it throws, nothing is changed.
+  ///
   /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, the
-  ///         quaternion is zero, the body would meet another one, or a tie would be torn: then
-  ///         nothing is changed
+  ///         quaternion is zero, the body would meet another one, or a tie would be torn
   void set_state(std::size_t body, const RigidState& state);
 
   /// The states of all robots that have dynamics.
@@ -74,10 +76,12 @@ class FIRSTCONTACT_API Simulator {
 
   /// Puts a robot elsewhere, or gives it other velocities.
   ///
+  /// Where it throws, nothing is changed.
+  ///
   /// @param robot  among those that have dynamics
   /// @throws std::invalid_argument if the sizes are not those of the robot, a number is not finite,
   ///         a quaternion is zero, a joint would be beyond its limits, a link would meet a body, or
-  ///         a tie would be torn: then nothing is changed
+  ///         a tie would be torn
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
   /// Adds a force and a torque to those on a free body or a link body, for the next step alone.
@@ -94,7 +98,7 @@ class FIRSTCONTACT_API Simulator {
                    const Eigen::Vector3d& torque = Eigen::Vector3d::Zero(),
                    const std::optional<Eigen::Vector3d>& p_WP = {});
 
-  /// Gives a joint of a robot a motor, in place of what it has, from the next step on.
+  /// Gives a joint of a robot a motor, in place of its present one, from the next step on.
   ///
   /// @param robot  among those that have dynamics
   /// @param joint  the name of a joint of one coordinate
@@ -111,17 +115,18 @@ class FIRSTCONTACT_API Simulator {
   /// @throws std::invalid_argument if a number is not finite
   void set_gravity(const Eigen::Vector3d& gravity);
 
-  /// Changes what is given of the surface of a body, from the next step on.
+  /// Changes the given values of the surface of a body, from the next step on.
   ///
   /// @throws std::invalid_argument if there is no such body, or a number is out of its range
   void set_surface(std::size_t body, const Surface& surface);
 
-  /// Changes what is given of the surface of a pair, in place of what the two surfaces give.
+  /// Changes the given values of the surface of a pair, in place of those of the two surfaces.
   ///
-  /// @throws std::invalid_argument likewise, and for a velocity, which pairs have not
+  /// @throws std::invalid_argument if there is no such body, or a number is out of its range; for a
+  ///         velocity, which pairs do not have
   void set_pair_surface(const BodyPair& bodies, const Surface& surface);
 
-  /// Limits the threads that islands of bodies advance on. The bits of a run do not depend on it.
+  /// Limits the threads that advance islands of bodies. The bits of a run do not depend on it.
   ///
   /// @param threads  0 for one on each core, as without this call
   /// @throws std::invalid_argument if it is negative
@@ -130,8 +135,8 @@ class FIRSTCONTACT_API Simulator {
   /// Goes on after a step of a run with the same header.
   ///
   /// On the same kind of processor it goes on bit for bit as the run did. A record has no commands.
-  /// The caller sets motors, gravity and surfaces before this call, as they wake what rests, and
-  /// applies forces after it.
+  /// The caller sets motors, gravity and surfaces before this call, as they wake sleeping bodies.
+  /// Forces are applied after it.
   ///
   /// @throws std::invalid_argument if the step moves other bodies or joints than this scene does
   void resume(const RunStep& step);
@@ -140,7 +145,7 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// Where it was stopped, or throws, nothing has changed.
   ///
-  /// @returns  nothing if it was stopped
+  /// @returns nothing if it was stopped
   [[nodiscard]] std::optional<RunStep> step(const std::stop_token& stop = {});
 
  private:
