@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Eigen::Vector3d;
 
-/// Velocities are products of a few rounded numbers: within 2^-48 of their size.
+/// [-]  Velocities are products of a few rounded numbers, and within this of their size.
 constexpr double kSpeedError = 0x1p-48;
 
 using D = hn::CappedTag<double, kCornerLanes>;
@@ -31,7 +31,7 @@ struct Corners {
   V part[kParts];
 };
 
-/// Their components, relative to a point.
+/// The components of the corners, relative to a point.
 struct CornerVectors {
   Corners component[3];
 };
@@ -73,7 +73,7 @@ HWY_INLINE double reach_of(const CornerVectors& corners) {
   return std::sqrt(hn::GetLane(hn::MaxOfLanes(d, square))) * (1.0 + 0x1p-48);
 }
 
-/// The greatest of sign x.
+/// The greatest of sign x over the corners.
 HWY_INLINE double most(const Corners& x, double sign) {
   const D d;
   V most = hn::Mul(hn::Set(d, sign), x.part[0]);
@@ -83,8 +83,9 @@ HWY_INLINE double most(const Corners& x, double sign) {
   return hn::GetLane(hn::MaxOfLanes(d, most));
 }
 
-/// For how long gaps are open that change in time by at least
-/// gap - speed tau - half_acceleration tau^2: exactly that, or `enough` where that is less.
+/// The time for which gaps stay open that are at least gap - speed tau - half_acceleration tau^2.
+///
+/// It is exactly that of this parabola, or `enough` where that is less.
 class TimeOpen {
  public:
   HWY_INLINE TimeOpen(double half_acceleration, double enough)
@@ -119,16 +120,16 @@ class TimeOpen {
   V least_;
 };
 
-/// A body as it is seen along the direction n from A to B.
+/// A body as seen along the direction n from A to B.
 struct Side {
   const Triangle& corners;
   double rate;
   const Vector3d& pivot;
   Vector3d turn;  // n . (w u x r) = r . turn
-  double spin;    // its length
+  double spin;    // Its length.
   Corners along;
-  Corners speed;  // along n, as it turns about its pivot
-  double reach;   // greatest distance of a corner from the pivot
+  Corners speed;  // Speed along n, as the body turns about its pivot.
+  double reach;   // Greatest distance of a corner from the pivot.
 
   HWY_INLINE Side(const Triangle& T, double w, const Vector3d& axis, const Vector3d& p_AQ,
                   const Vector3d& n)
@@ -140,14 +141,14 @@ struct Side {
   }
 };
 
-/// What both share.
+/// The data of the pair that both sides use.
 struct Gap {
   const RelativeState& state;
   double clearance_error;
   double time_left;
   double enough;
-  double drift;        // along n, of the pivots
-  double pivot_speed;  // in all
+  double drift;        // Drift of the pivots along n.
+  double pivot_speed;  // Speed of the pivots in any direction.
   double bend;
 };
 
@@ -175,6 +176,8 @@ HWY_INLINE double along_direction_fixed(const Gap& gap, const Side& A, const Sid
   return time.least();
 }
 
+/// The time for which the gap stays open along a direction that turns with the carrier.
+///
 /// @param sign  1 where A carries the direction, -1 where B does
 HWY_INLINE double along_direction_carried(const Gap& gap, const Side& carrier, const Side& other,
                                           double sign) {

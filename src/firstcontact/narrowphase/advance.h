@@ -17,21 +17,24 @@ struct TrianglePair {
   Triangle B;
 };
 
-/// How long two triangles provably stay farther apart than `threshold`.
+/// The time for which two triangles provably stay farther apart than `threshold`.
 ///
 /// Claims: for every t' in [t, t + tau], t' within the piece, the exact distance of the two
 /// triangles is > threshold. Source: conservative advancement (B. Mirtich, 1996) with a
-/// second-order bound along a direction. Derivation: along a fixed unit n the gap of two points
-/// changes at the rate n . (v_b - v_a), whose own rate is at most
-///   K = w_A^2 |n x u_A| rho_A + w_B^2 |n x u_B| rho_B
-/// in size, as the acceleration of a point is -w^2 rho_perp with |rho_perp| constant. Carried by
-/// body A, n turns with it; A's points stand still, and in A's turning frame a point b of B has
-///   K = w_B^2 rho_B + 2 w_A |n x u_A| (|s| + w_B rho_B) + w_A^2 |n x u_A| D,
-/// the accelerations of B, of Coriolis and of the turning frame, with s the relative velocity of
-/// the pivots and D a bound of |b - Q_A| up to t_end. That holds for the model motions; what exact
-/// ones may depart from them adds the state's drift to the rate and its bend for the corners' reach
-/// to K. Every direction certifies; the best of the three is taken, or the first that holds beyond
-/// t_end.
+/// second-order bound along a direction.
+///
+/// Derivation: along a fixed unit n the gap of two points changes at the rate n . (v_b - v_a). The
+/// size of its own rate is at most
+///   K = w_A^2 |n x u_A| rho_A + w_B^2 |n x u_B| rho_B,
+/// as the acceleration of a point is -w^2 rho_perp with |rho_perp| constant. Body A may also carry
+/// n, which then turns with it. A's points stand still, and in A's turning frame a point b of B has
+///   K = w_B^2 rho_B + 2 w_A |n x u_A| (|s| + w_B rho_B) + w_A^2 |n x u_A| D.
+/// Its terms are the accelerations of B, of Coriolis and of the turning frame. s is the relative
+/// velocity of the pivots, and D bounds |b - Q_A| up to t_end.
+///
+/// All this holds for the model motions. Exact motions may depart from these: the state's drift
+/// adds to the rate, and its bend for the corners' reach adds to K. Every direction certifies. The
+/// best of the three is taken, or the first that holds beyond t_end.
 ///
 /// @param pair       positions at the state's time t
 /// @param n          [-]  unit up to rounding, from A towards B

@@ -19,7 +19,7 @@ double longest(const Triangle& v, const Vector3d& from) {
       {(v[0] - from).squaredNorm(), (v[1] - from).squaredNorm(), (v[2] - from).squaredNorm()}));
 }
 
-/// One body's part of a RelativeState.
+/// The part of a RelativeState that belongs to one body.
 struct BodyState {
   const Vector3d& axis;
   double rate;
@@ -27,7 +27,7 @@ struct BodyState {
   Vector3d pivot_velocity;
 };
 
-/// @param offset  [m]  that positions were rounded by
+/// @param offset  [m]  size to which positions were rounded
 MovingCorners corners(const BodyState& body, const Triangle& position, const Triangle& rates,
                       double offset, double time_left) {
   MovingCorners c;
@@ -57,7 +57,7 @@ double advance_deforming(const RelativeState& state, const TrianglePair& pair,
   const BodyState body_B{state.axis_B, state.rate_B, state.p_AQb, state.pivot_velocity};
   const MovingCorners A = corners(body_A, pair.A, rates.A, offset, time_left);
   MovingCorners B = corners(body_B, pair.B, rates.B, offset, time_left);
-  // What is between the two counts as B's.
+  // Errors and bends of the relative motion count as B's.
   B.slip += state.drift;
   B.bend = state.bend_of(longest(pair.A, state.p_AQa), longest(pair.B, state.p_AQb)) * kUp;
   return detail::time_apart_along(A, B, closest, threshold + error, n, enough);

@@ -13,11 +13,11 @@
 
 namespace firstcontact {
 
-/// Where a corner is over a face T: its foot is T[0] + u (T[1] - T[0]) + v (T[2] - T[0]).
+/// The place of a corner over a face T: its foot is T[0] + u (T[1] - T[0]) + v (T[2] - T[0]).
 struct CornerFoot {
   double u = 0.0;       ///< [-]
   double v = 0.0;       ///< [-]
-  double height = 0.0;  ///< Over the plane of T, of any unit.
+  double height = 0.0;  ///< Height over the plane of T, in any unit.
 };
 
 /// The feature of a triangle in whose interior the point of an edge at s in [0, 1] lies.
@@ -40,7 +40,7 @@ inline Eigen::Vector3d point_on_face(const Triangle& T, double u, double v) {
   return T[0] + u * (T[1] - T[0]) + v * (T[2] - T[0]);
 }
 
-/// With the roles of A and B exchanged, or as it is.
+/// The closest features with the roles of A and B exchanged, or as they are.
 inline ClosestFeatures exchanged_if(bool swapped, ClosestFeatures c) {
   if (swapped) {
     std::swap(c.p_A, c.p_B);
@@ -49,7 +49,7 @@ inline ClosestFeatures exchanged_if(bool swapped, ClosestFeatures c) {
   return c;
 }
 
-/// Corner k of S over the face of T, inside which its foot is.
+/// The closest features of corner k of S and the face of T, inside which the corner's foot is.
 ///
 /// @param swapped  S belongs to B
 inline ClosestFeatures corner_over_face(const Triangle& S, int k, const Triangle& T,
@@ -61,21 +61,23 @@ inline ClosestFeatures corner_over_face(const Triangle& S, int k, const Triangle
                       {(p - S[corner]).norm(), S[corner], p, {Type::vertex, k}, {Type::face, 0}});
 }
 
-/// [m]  At least the greatest coordinate.
+/// [m]  An upper bound of the greatest coordinate.
 inline double greatest_coordinate(const Triangle& T) {
   return (T[0].cwiseAbs() + T[1].cwiseAbs() + T[2].cwiseAbs()).maxCoeff();
 }
 
-/// Where edge k of S, between two heights over T's plane, pierces T. Of a needle, rounding may have
-/// put the point on T elsewhere: then they are as far apart as they are.
+/// The point where edge k of S, between two heights over T's plane, pierces T.
 ///
-/// @param begin,end  of the edge
+/// Where T is a needle, rounding may have put the point on T elsewhere. Then the distance of the
+/// two points is returned.
+///
+/// @param begin,end  feet of the edge's ends
 /// @param swapped    S belongs to B
 inline std::optional<ClosestFeatures> edge_through_face(const Triangle& S, int k, const Triangle& T,
                                                         const CornerFoot& begin,
                                                         const CornerFoot& end, bool swapped) {
   using Type = TriangleFeature::Type;
-  constexpr double kRounding = 0x1p-40;  // Of the size, with room.
+  constexpr double kRounding = 0x1p-40;  // [-]  Relative to the size, with room.
   if ((begin.height > 0.0) == (end.height > 0.0) || begin.height == end.height) {
     return std::nullopt;
   }

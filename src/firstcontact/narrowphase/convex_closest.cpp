@@ -13,17 +13,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Rounds that a search takes at most; smooth bodies that nearly touch take a dozen.
+/// Most rounds of a search; smooth bodies that nearly touch take a dozen.
 constexpr int kMostRounds = 64;
 
-/// [-]  Of the sizes: gaps and distances are not told apart below it.
+/// [-]  Relative to the sizes; gaps and distances count as equal below it.
 constexpr double kRounding = 0x1p-50;
 
 /// A difference b - a of points of both cores.
 struct Difference {
-  Vector3d own_A;  // in the cores' own frames
+  Vector3d own_A;  // Points in the cores' own frames.
   Vector3d own_B;
-  Vector3d a;  // placed
+  Vector3d a;  // Points as placed.
   Vector3d b;
 };
 
@@ -80,7 +80,7 @@ class Search {
     }
   }
 
-  /// The points of both cores that the simplex's nearest point stands for.
+  /// Takes the points of both cores that belong to the simplex's nearest point.
   void take_points() {
     Vector3d a = Vector3d::Zero();
     Vector3d b = Vector3d::Zero();
@@ -98,7 +98,7 @@ class Search {
     }
   }
 
-  /// Whether there is a direction; then `next_` is the difference least far along it.
+  /// Looks along v, and sets `next_` to the difference least far along it. False where v is zero.
   bool look_along(const Vector3d& v) {
     const double length = v.norm();
     if (!(length > 0.0)) {
@@ -114,7 +114,10 @@ class Search {
     return true;
   }
 
-  /// Of a flat face the search finds the normal only nearly; a tilt takes the gap of a large face.
+  /// Tries the exact normals of flat faces and straight lines near the best direction.
+  ///
+  /// The search finds such a normal only approximately, and a small tilt loses the gap of a large
+  /// face.
   void try_flat_directions() {
     if (best_.n.isZero() || !(best_.distance - best_.gap > rounding_)) {
       return;
@@ -136,7 +139,7 @@ class Search {
             beyond >= wanted_.near * (best_.distance - wanted_.least));
   }
 
-  /// Whether the next difference is a corner already: nothing comes of it.
+  /// Whether the next difference is a corner already, so that nothing is gained.
   [[nodiscard]] bool is_known() const {
     for (std::size_t k = 0; k < simplex_.count(); ++k) {
       const Difference& d = at_[simplex_.corner(k).place];
@@ -166,7 +169,7 @@ class Search {
   detail::DifferenceSimplex simplex_;
   std::array<Difference, 4> at_;
   Difference next_;
-  bool is_nearer_ = false;  // Than all before.
+  bool is_nearer_ = false;  // Whether this round came nearer than all before.
   ConvexClosest best_;
 };
 

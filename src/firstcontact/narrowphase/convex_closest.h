@@ -26,10 +26,10 @@ struct PlacedConvex {
   [[nodiscard]] Eigen::Vector3d to_frame(const Eigen::Vector3d& p) const { return centre + R * p; }
 };
 
-/// Where a search for closest points begins: with what the last one of a pair ended with.
+/// The beginning of a search for closest points: the end of the last search of a pair.
 ///
-/// It decides how long the search takes. The points are points of both cores, in the cores' own
-/// frames: a guess serves the same two cores at any places, and no others.
+/// It determines how long the search takes. The points are points of both cores, in the cores' own
+/// frames. A guess serves the same two cores at any places, and no others.
 struct ConvexGuess {
   std::size_t count = 0;  ///< 0 to 4.
   std::array<Eigen::Vector3d, 4> p_A;
@@ -40,9 +40,9 @@ struct ConvexGuess {
 /// When a search for closest points may end.
 struct ConvexWanted {
   double least = -std::numeric_limits<double>::infinity();  ///< [m]
-  /// [-]  Ends where the gap beyond `least` is this part of the distance beyond it.
+  /// [-]  The search ends where the gap beyond `least` is this part of the distance beyond it.
   double near = 1.0;
-  double close = 0.0;  ///< [m]  Ends where points are as near as that.
+  double close = 0.0;  ///< [m]  The search ends where points are as near as that.
 };
 
 /// A point of each core, and a direction.
@@ -57,19 +57,21 @@ struct ConvexClosest {
 
 /// Looks for the closest points of two convex cores.
 ///
-/// Claims: p_A lies within 2^-47 of the sum of |p_A - centre| and A's reach from A's core, placed
-/// by the R and centre as they are; likewise p_B. So the distance is an upper bound of that of the
-/// cores, up to as much. Derivation: each is a convex combination of up to four support points
-/// (ConvexCore::support_point) whose shares are >= 0; turning and summing up four products rounds
-/// by less than 40 2^-53 of their sizes. How near the distance is to the least one, and how well n
-/// separates, is not claimed: a certificate along n is advance_convex().
+/// Claims: p_A lies near A's core, placed by R and centre as they are. It is within 2^-47 of the
+/// sum of |p_A - centre| and A's reach. The same holds for p_B. So the distance is an upper bound
+/// of that of the cores, up to as much. How near the distance is to the least one, and how well n
+/// separates, is not claimed. For a certificate along n see advance_convex().
+///
+/// Derivation: each point is a convex combination of up to four support points
+/// (ConvexCore::support_point) with shares >= 0. Turning and summing up four products rounds by
+/// less than 40 2^-53 of their sizes.
 ///
 /// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
 /// distance between complex objects in three-dimensional space", IEEE J. Robot. Autom. 4, 1988. The
 /// direction of a triangle of differences is its normal, which stays accurate where the points
 /// nearly coincide.
 ///
-/// @param guess  of the same two cores; takes what the next search may begin with
+/// @param guess  for the same two cores; receives the beginning of the next search
 [[nodiscard]] FIRSTCONTACT_API ConvexClosest closest_points(const PlacedConvex& A,
                                                             const PlacedConvex& B,
                                                             const ConvexWanted& wanted,

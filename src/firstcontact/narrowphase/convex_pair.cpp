@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 
 constexpr double kUp = 1.0 + 0x1p-46;
 
-/// Velocities are sums of products of a few rounded numbers: within 2^-47 of their sizes.
+/// [-]  Velocities are sums of products of a few rounded numbers, and within this of their sizes.
 constexpr double kSpeedError = 0x1p-47;
 
-/// One body along the direction n from A to B, seen from its centre.
+/// A body along the direction n from A to B, seen from the body's centre.
 struct Side {
   const PlacedConvex& set;
   double rate;
@@ -25,8 +25,8 @@ struct Side {
   const Vector3d& pivot;
   Vector3d facing;  // n of A, -n of B
   double sign;
-  Vector3d lever;  // [m]  From the pivot to the centre.
-  double reach;    // [m]  Of any point from the pivot.
+  Vector3d lever;  // [m]  Vector from the pivot to the centre.
+  double reach;    // [m]  Bound of the distance of any point from the pivot.
   Vector3d turn;   // m = w n x u
   double spin;     // |m|
   double along;    // [m]  h(facing)
@@ -45,12 +45,12 @@ struct Side {
         spin(turn.norm()),
         along(support(facing)) {}
 
-  /// [m]  An upper bound of d . x over the core, but for the error of its turn.
+  /// [m]  An upper bound of d . x over the core, except for the error of its turn.
   [[nodiscard]] double support(const Vector3d& d) const {
     return set.core.support_bound(set.to_own_axes(d));
   }
 
-  /// [m]  An upper bound of facing . (x - pivot) of its points, at any turn about the axis.
+  /// [m]  An upper bound of facing . (x - pivot) over its points, at any turn about the axis.
   [[nodiscard]] double most_at_any_turn() const {
     if (!(rate > 0.0)) {
       return facing.dot(lever) + along;
@@ -64,12 +64,12 @@ struct Side {
            (facing.cross(axis).norm() * std::min(across, reach) + 0x1p-47 * reach) * kUp;
   }
 
-  /// [m per step]  The slope of the chord of h(facing + tau m), m turned to its side.
+  /// [m per step]  The slope of the chord of h(facing + tau m), with m in the sense of this side.
   [[nodiscard]] double growth(const Vector3d& m, double chord) const {
     return (support(facing + (sign * chord) * m) - along) / chord;
   }
 
-  /// [m per step]  An estimate of the same for a short chord.
+  /// [m per step]  An estimate of growth() for a short chord.
   [[nodiscard]] double growth_estimate(const Vector3d& m) const {
     const Vector3d own = set.core.support_point(set.to_own_axes(facing));
     return sign * m.dot(set.R * own);
@@ -95,10 +95,11 @@ class Gap {
   [[nodiscard]] bool is_open() const { return clear_ > 0.0; }
   [[nodiscard]] double enough() const { return time_left_ * (1.0 + 0x1p-40) + 0x1p-100; }
 
-  /// Whether a step with n fixed loses much of the gap to what is not of first order: then the
-  /// other certificates may be longer.
+  /// Whether a step with n fixed loses much of the gap to terms of second order.
+  ///
+  /// The other certificates may then be longer.
   [[nodiscard]] bool bends(double step) const {
-    constexpr double kMuch = 0.1;  // [-]  Of the gap.
+    constexpr double kMuch = 0.1;  // [-]  Part of the gap.
     const double turn = step * std::max(A_.spin, B_.spin);
     const double bend = (A_.rate * A_.spin * A_.reach + B_.rate * B_.spin * B_.reach) * step * step;
     return bend > kMuch * clear_ || turn > 0.5;
@@ -118,8 +119,10 @@ class Gap {
     return time_open(A_.turn, B_.turn, closing, K);
   }
 
-  /// Seen from the body that carries n, the centre of the other one moves at s + w u x (...) less
-  /// the velocity of the carrier's frame there.
+  /// The time for which the gap stays open along a direction that turns with the carrier.
+  ///
+  /// Seen from the carrier, the centre of the other body moves at s + w u x (...) less the velocity
+  /// of the carrier's frame there.
   [[nodiscard]] double carried(const Side& carrier, const Side& other) const {
     const double other_speed = pivot_speed_ + other.rate * other.reach;
     const Vector3d apart = other.pivot - carrier.pivot;
@@ -147,7 +150,8 @@ class Gap {
     return state_.drift + kSpeedError * (pivot_speed_ + turning);
   }
 
-  /// With directions that change at the rates m_A and m_B, and centres that close at a rate.
+  /// The time for directions that change at the rates m_A and m_B, and centres that close at a
+  /// rate.
   [[nodiscard]] double time_open(const Vector3d& m_A, const Vector3d& m_B, double closing,
                                  double K) const {
     const double half_acceleration = 0.5 * K * kUp;
@@ -157,7 +161,8 @@ class Gap {
     }
     const double estimate = time_to_close(
         clear_, closing + A_.growth_estimate(m_A) + B_.growth_estimate(m_B), half_acceleration);
-    // No direction gets more than twice as long; not much longer than what will be proven.
+    // The end of the chord makes no direction more than twice as long, and lies not much beyond the
+    // step.
     const double end = time_left_ * (1.0 + 0x1p-30) + 0x1p-90;
     const double chord = std::min({1.25 * estimate, end, (1.0 - 0x1p-40) / fastest});
     if (!(chord > 0.0)) {
@@ -233,13 +238,13 @@ class Advance {
   }
 
  private:
-  /// A certified step, or 0 at a contact or where nothing is certified.
+  /// A certified step; 0 at a contact, or where nothing is certified.
   [[nodiscard]] double step(const RelativeState& state) {
     const PlacedConvex A{.core = pair_.A, .R = state.R_WA};
     const PlacedConvex B{.core = pair_.B, .R = state.R_WB, .centre = state.p_AB};
     const double error = convex_gap_error(state, pair_.A.reach, pair_.B.reach);
     if (guess_.count == 0) {
-      // Most pairs are far apart: the line of their centres decides them.
+      // Most pairs are far apart, and the line of their centres separates them.
       const Vector3d between = B.to_frame(pair_.B.origin) - A.to_frame(pair_.A.origin);
       const double length = between.norm();
       if (length > 0.0) {
@@ -257,7 +262,8 @@ class Advance {
     if (tau > 0.0 || result_.verdict == ConvexVerdict::contact) {
       return tau;
     }
-    // The search ended too early, as it began with unsuitable points: once more from a direction.
+    // The search ended early because it began with unsuitable points. It runs once more from a
+    // direction.
     guess_.count = 0;
     wanted.near = 1.0;
     closest = closest_points(A, B, wanted, guess_);

@@ -15,17 +15,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// More rounds than these gain nothing.
+/// Most rounds; more of them gain nothing.
 constexpr int kRounds = 16;
 
 constexpr std::size_t kPlaces = detail::kDirections;
 
-/// Up to four points, of which those that hold the nearest point to the origin are kept.
+/// Up to four points; nearest() keeps those that hold the point nearest to the origin.
 class Simplex {
  public:
   void add(const Vector3d& p) { points_[static_cast<std::size_t>(count_++)] = p; }
 
-  /// Drops what does not matter; the origin where that is inside.
+  /// The nearest point to the origin; drops all points but those that hold it. Zero if the origin
+  /// is inside.
   Vector3d nearest() {
     switch (count_) {
       case 1:
@@ -65,7 +66,7 @@ class Simplex {
     return along >= square ? keep(b) : keep(a, b, along / square);
   }
 
-  /// C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
+  /// Source: C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
   Vector3d of_triangle() {
     const Vector3d a = points_[0];
     const Vector3d b = points_[1];
@@ -138,10 +139,10 @@ class Simplex {
   int count_ = 0;
 };
 
-/// A polytope at its places, all of the same corners.
+/// A polytope at its places, which all have the same corners.
 using Places = std::span<const PlacedPolytope>;
 
-/// The point that is farthest along n, at each place, from an origin.
+/// The point that is farthest along n, at each place, relative to an origin.
 std::array<Vector3d, kPlaces> farthest(Places P, const Vector3d& n, const Vector3d& origin) {
   std::array<Vector3d, kPlaces> directions;
   for (std::size_t k = 0; k < P.size(); ++k) {
@@ -176,7 +177,7 @@ Vector3d least_difference(Places A, Places B, const Vector3d& n) {
 Separation separate(Places A, Places B, const Vector3d& n, const GapRange& range) {
   assert((A.size() == 1 || A.size() == kPlaces) && (B.size() == 1 || B.size() == kPlaces));
   Separation best{n, -std::numeric_limits<double>::infinity()};
-  Simplex simplex;  // Of the differences B - A.
+  Simplex simplex;  // Simplex of the differences B - A.
   Vector3d along = n;
   for (int round = 0; round < kRounds; ++round) {
     const Vector3d difference = least_difference(A, B, along);

@@ -15,12 +15,12 @@ namespace firstcontact {
 
 /// A convex polytope at its place, in a frame W that both share.
 struct PlacedPolytope {
-  const PointRows& corners;  ///< [m]  From its centre.
+  const PointRows& corners;  ///< [m]  Relative to the centre.
   Eigen::Matrix3d R;         ///< [-]  From its own axes to those of W; any matrix.
   Eigen::Vector3d centre;    ///< [m]  In W.
 };
 
-/// How far apart A and B are along n.
+/// A direction, and the gap of A and B along it.
 struct Separation {
   Eigen::Vector3d n = Eigen::Vector3d::UnitX();  ///< [-]  Unit, from A to B.
   /// [m]  The least n . (p_B - p_A) over points of B and A; within 2^-48 of the polytopes' sizes
@@ -28,26 +28,27 @@ struct Separation {
   double gap = 0.0;
 };
 
-/// Which gaps are of interest.
+/// The gaps that are of interest.
 struct GapRange {
-  double least = 0.0;  ///< [m]  Where there is no greater one, any direction will do.
-  double enough = std::numeric_limits<double>::infinity();  ///< [m]  None greater is asked for.
-  double near = 0.9;  ///< [-]  Nor one beyond this part of the way from the least to the distance.
+  double least = 0.0;  ///< [m]  Where no gap is greater than this, any direction will do.
+  double enough = std::numeric_limits<double>::infinity();  ///< [m]  No greater gap is asked for.
+  double near = 0.9;  ///< [-]  Nor a gap beyond this part of the way from the least to the
+                      ///< distance.
 };
 
-/// Looks for a direction whose gap is nearly the distance, as far as that exceeds the least.
+/// Looks for a direction with nearly the distance as its gap, as far as that exceeds the least.
 ///
 /// Whatever the direction, its gap is that of the points.
 ///
 /// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
 /// distance between complex objects in three-dimensional space", IEEE J. Robot. Autom. 4, 1988.
 ///
-/// @param n  [-]  unit; where to begin
+/// @param n  [-]  unit; the beginning of the search
 [[nodiscard]] FIRSTCONTACT_API Separation separate(const PlacedPolytope& A, const PlacedPolytope& B,
                                                    const Eigen::Vector3d& n,
                                                    const GapRange& range = {});
 
-/// Looks for such a direction for A and B at three places each: the gap is the least of theirs.
+/// Looks for such a direction for A and B at several places each: the gap is the least of theirs.
 ///
 /// Places of the same index belong together. A body with a single place keeps it.
 ///

@@ -18,10 +18,10 @@ using detail::kUp;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Without a branch that could not be foreseen.
+/// Clamps x to [0, 1] without a branch, which could not be foreseen.
 double clamp_to_unit(double x) { return Eigen::Array2d(x, x).max(0.0).min(1.0)[0]; }
 
-/// [-]  Squared sine of the angle of two edges whose product is not worth using as a direction.
+/// [-]  Squared sine of the angle of two edges below which their product is no useful direction.
 constexpr double kParallel = 1e-12;
 
 /// Edge a + u of A at rest and edge c + v of B that moves, from A's pivot in A's axes at the start.
@@ -60,7 +60,7 @@ class TwoEdges {
     const Vector3d rate_v = detail::relative_rate(seen_v_, w_A);
     return {e_.dot(normal_), rate_e.dot(normal_) + e_.cross(u_).dot(rate_v)};
   }
-  /// f = u . (v x c) - (a x u) . v + (offset + tau drift) . (u x v), c here from B's pivot.
+  /// Bounds f = u . (v x c) - (a x u) . v + (offset + tau drift) . (u x v), with c from B's pivot.
   [[nodiscard]] CurvatureBound coplanarity_bounds() {
     const double w_A = motion_.A.rate;
     const double w_B = motion_.B.rate;
@@ -87,7 +87,7 @@ class TwoEdges {
     return bounds;
   }
 
-  /// Along the direction between the nearest points, which stands still in the world.
+  /// The gaps along the direction between the nearest points, which stands still in the world.
   [[nodiscard]] detail::Gaps<4> gaps() const {
     const Vector3d d = between_nearest_points();
     // A point p of A moves at rate z x p, along d at -p . turn.
@@ -98,9 +98,11 @@ class TwoEdges {
     return {{ac, ac + u, ac + v, ac + u + v}, gap_.along(d, axis_B_)};
   }
 
-  /// Derivation: coplanar lines that are not parallel cross at a + s u = c + r v with
-  /// s |N|^2 = (e x v) . N, r |N|^2 = (e x u) . N, N = u x v. Each product changes by no more than
-  /// the product of its factors' greatest lengths times the sum of their relative changes.
+  /// Whether the edges provably meet where they are coplanar within `duration`.
+  ///
+  /// Derivation: coplanar lines that are not parallel cross at a + s u = c + r v. There s
+  /// |N|^2 = (e x v) . N and r |N|^2 = (e x u) . N, with N = u x v. Each product changes by no more
+  /// than the product of its factors' greatest lengths times the sum of their relative changes.
   [[nodiscard]] bool meet_if_coplanar(double duration) const {
     const double e_change = speed_bound_ * duration * kUp + gap_.position_error;
     const double turn_change =
@@ -122,10 +124,11 @@ class TwoEdges {
   }
 
  private:
-  /// Between the nearest features: along the product of the edges, or across one from a corner, or
-  /// between two corners; of any length. Stays accurate where they touch. One parameter comes from
-  /// the normal equations, then each is made the best for the other, which also serves
-  /// near-parallel edges.
+  /// The direction between the nearest features, of any length.
+  ///
+  /// It is along the product of the edges, or across an edge from a corner, or between two corners.
+  /// It stays accurate where they touch. One parameter comes from the normal equations. Then each
+  /// parameter is made the best for the other, which also serves near-parallel edges.
   [[nodiscard]] Vector3d between_nearest_points() const {
     const double uv = u_.dot(v_);
     const double ue = u_.dot(e_);

@@ -16,9 +16,9 @@ using Edge = std::array<Eigen::Vector3d, 2>;  ///< [m]  End points; may coincide
 
 /// Finds the first time at which edge ab of body A crosses edge cd of body B.
 ///
-/// The method is that of vertex_face_contact(), with the coplanarity function
-///   f(t) = (c - a) . ((b - a) x (d - c)),
-/// whose two edges turn against each other. A root is a contact where the lines cross inside both
+/// The method is that of vertex_face_contact(). The coplanarity function is
+///   f(t) = (c - a) . ((b - a) x (d - c)).
+/// Its two edges turn against each other. A root is a contact where the lines cross inside both
 /// edges. Where the edges stay parallel or in one plane, f vanishes throughout. The gap between
 /// their nearest points then decides, and a touch of such edges is `degenerate`.
 ///

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The axis of the first path that turns: whatever rests may as well turn about it.
+/// The axis of the first path that turns; a path at rest may turn about any axis.
 Vector3d common_axis(const ConstantRatePath& first, const ConstantRatePath& second) {
   if (first.rate() > 0.0) {
     return first.axis();
@@ -28,9 +28,11 @@ Matrix3d to_axes_along(const Vector3d& z) {
 
 }  // namespace
 
-// The errors of a lever, in units of 2^-53 of its length: 22 for the path's rotation, 13 for the
-// change of axes and its product, 10 for the rotation of the point and its sum, 15 for each turn
-// with its sine and cosine, 6 for the axis of B; a turn by an angle w errs by another 3 w.
+// The errors of a lever, in units of 2^-53 of its length:
+// - 22 for the path's rotation, and 13 for the change of axes and its product;
+// - 10 for the rotation of the point and its sum;
+// - 15 for each turn with its sine and cosine, and 6 for the axis of B. A turn by an angle w errs
+//   by another 3 w.
 ElementaryMotion::ElementaryMotion(const RelativeMotion& motion)
     : t_begin(std::max(motion.A().t_begin(), motion.B().t_begin())),
       t_end(std::min(motion.A().t_end(), motion.B().t_end())),

@@ -36,12 +36,12 @@ HWY_INLINE void store(V v, std::size_t first, FeatureLanes& lanes) {
 }
 
 HWY_INLINE std::uint64_t bits(hn::Mask<D> mask, std::size_t first) {
-  std::uint8_t lanes[8] = {};  // Highway writes eight of them.
+  std::uint8_t lanes[8] = {};  // Highway writes eight bytes.
   hn::StoreMaskBits(D(), mask, lanes);
   return static_cast<std::uint64_t>(lanes[0]) << first;
 }
 
-/// The bits of the first lanes.
+/// The bits of the first `count` lanes.
 HWY_INLINE std::uint64_t all_of(std::size_t count) { return (std::uint64_t{1} << count) - 1; }
 
 void PrepareEdges(EdgeBatch& edges) {
@@ -58,7 +58,9 @@ void PrepareEdges(EdgeBatch& edges) {
   }
 }
 
-/// Each operation rounded by itself and in the order of Eigen, as one by one would be.
+/// The distances, with each operation rounded by itself and in the order of Eigen.
+///
+/// So lanes have the bits of single computations.
 HWY_INLINE V distance_of(const EdgeBatch& A, std::size_t i, const EdgeLanes<D>& a,
                          const EdgeBatch& B, std::size_t first, const EdgeLanes<D>& b,
                          const ClosestOnEdges<D>& closest) {
@@ -75,7 +77,8 @@ HWY_INLINE V distance_of(const EdgeBatch& A, std::size_t i, const EdgeLanes<D>& 
   return hn::Sqrt(hn::Add(hn::Add(square[0], square[1]), square[2]));
 }
 
-/// Where squares of distances are looked at more closely: more than they err.
+/// [m^2]  Squares of distances up to this are looked at more closely; beyond the band by more than
+/// their errors.
 HWY_INLINE double square_of_reach(double band, double size) {
   const double reach = band + 0x1p-43 * size;
   return reach * reach;
@@ -113,7 +116,7 @@ void FindEdgeDistances(const EdgeBatch& A, std::size_t i, const EdgeBatch& B, do
 
 static_assert(FaceBatch::kCapacity % 8 == 0);
 
-/// Each operation rounded by itself, as one by one would be.
+/// The vector product, with each operation rounded by itself as in a single computation.
 HWY_INLINE void cross_lanes(const V* x, const V* y, V* product) {
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3;
@@ -128,7 +131,7 @@ HWY_INLINE void store(const V* v, V scale, std::size_t first, std::array<Feature
   }
 }
 
-/// Lane by lane as find_face_ways().
+/// Prepares faces lane by lane, as find_face_ways() does.
 void PrepareFaces(FaceBatch& faces) {
   const D d;
   const V one = hn::Set(d, 1.0);

@@ -47,8 +47,8 @@ struct EdgeBatch {
   CornerBatch from;
   CornerBatch to;
   std::array<FeatureLanes, 3> along;  ///< [m]
-  FeatureLanes square;                ///< [m^2]  Of the length.
-  FeatureLanes inverse_square;        ///< [1/m^2]  0 of an edge without length.
+  FeatureLanes square;                ///< [m^2]  Square of the length.
+  FeatureLanes inverse_square;        ///< [1/m^2]  0 for an edge without length.
 
   void add(const Eigen::Vector3d& begin, const Eigen::Vector3d& end) {
     from.add(begin);
@@ -57,18 +57,18 @@ struct EdgeBatch {
   [[nodiscard]] std::size_t count() const { return from.count; }
 };
 
-/// Finds what depends on the ends of edges. To be called after the last was added.
+/// Computes the fields that depend on the ends of edges; to be called after the last was added.
 FIRSTCONTACT_API void prepare(EdgeBatch& edges);
 
-/// An edge of A against all edges of a batch B.
+/// The distances of an edge of A from all edges of a batch B.
 struct EdgeDistances {
-  FeatureLanes s;            ///< [-]  Where on A's edge the closest point is, in [0, 1].
-  FeatureLanes t;            ///< [-]  Where on B's.
-  FeatureLanes distance;     ///< [m]  Of these points; of lanes `within` alone.
-  std::uint64_t within = 0;  ///< The lanes whose distance is at most the band.
+  FeatureLanes s;            ///< [-]  Place of the closest point on A's edge, in [0, 1].
+  FeatureLanes t;            ///< [-]  Place of the closest point on B's edge.
+  FeatureLanes distance;     ///< [m]  Distance of these points; only for the lanes `within`.
+  std::uint64_t within = 0;  ///< Bits of the lanes whose distance is at most the band.
 };
 
-/// Just what feature_pairs_within() finds of these edges, to the last bit.
+/// Finds exactly what feature_pairs_within() finds for these edges, to the last bit.
 ///
 /// @param band  [m]
 /// @param size  [m]  no coordinate is greater
@@ -80,7 +80,7 @@ struct FaceBatch {
   static constexpr std::size_t kCapacity = 16;
 
   std::array<CornerBatch, 3> corner;
-  std::array<FeatureLanes, 3> normal;                 ///< Of any length.
+  std::array<FeatureLanes, 3> normal;                 ///< A normal of any length.
   std::array<std::array<FeatureLanes, 3>, 2> across;  ///< [1/m]  A point r from the first corner
                                                       ///< has its foot at u = r . across[0], v.
 
@@ -95,27 +95,29 @@ struct FaceBatch {
   }
 };
 
-/// Finds what depends on the corners of faces. To be called after the last was added.
+/// Computes the fields that depend on the corners of faces; to be called after the last was added.
 FIRSTCONTACT_API void prepare(FaceBatch& faces);
 
-/// Where a corner is over the faces of a batch.
+/// The place of a corner over the faces of a batch.
 struct CornerFeet {
   using Lanes = std::array<double, FaceBatch::kCapacity>;
 
   alignas(64) Lanes u;
   alignas(64) Lanes v;
   alignas(64) Lanes height;
-  std::uint32_t above = 0;   ///< The lanes with a positive height.
-  std::uint32_t within = 0;  ///< Those of feet inside the face, and at most the band away.
+  std::uint32_t above = 0;   ///< Bits of the lanes with a positive height.
+  std::uint32_t within = 0;  ///< Bits of the lanes with feet inside the face, and at most the band
+                             ///< away.
 
   [[nodiscard]] CornerFoot operator[](std::size_t face) const {
     return {u[face], v[face], height[face]};
   }
 };
 
-/// Finds for each of these corners just what feature_pairs_within() finds, to the last bit.
+/// Finds for each of these corners exactly what feature_pairs_within() finds, to the last bit.
 ///
-/// The lanes `within` are those that it looks at, some of them beyond the band by rounding.
+/// The lanes `within` are those that the function looks at. Some of them are beyond the band by
+/// rounding.
 ///
 /// @param band  [m]
 /// @param size  [m]  no coordinate is greater

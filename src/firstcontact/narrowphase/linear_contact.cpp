@@ -23,10 +23,10 @@ using Eigen::Vector3d;
 
 /// Two features, A of at most three corners and B of at most two, relative to a common point.
 ///
-/// Derivation of the errors, u = 2^-53: `from` and `to` of a corner, taken from a corner of A at
-/// the same time, are rounded by u of their sizes, which `reach` bounds. A product with a direction
-/// of length 1 +- 4 u adds 4 u of it. Rounding of times adds a few u. With 2^-47 = 64 u all of it
-/// is covered twice; velocities, differences of two such positions, have an error of their own.
+/// Derivation of the errors, u = 2^-53: `from` and `to` of a corner are taken from a corner of A at
+/// the same time. They are rounded by u of their sizes, which `reach` bounds. A product with a
+/// direction of length 1 +- 4 u adds 4 u of it. Rounding of times adds a few u. 2^-47 = 64 u covers
+/// the sum twice. Velocities are differences of two such positions, and have an error of their own.
 class LinearPair {
  public:
   LinearPair(std::span<const LinearPoint> A, std::span<const LinearPoint> B,
@@ -83,11 +83,12 @@ class LinearPair {
     }
   }
 
-  /// A dozen times what most features take: a tiny gap lasts while they turn. Double-doubles know a
-  /// direction for that.
+  /// Steps before double-doubles take over; a dozen times what most features take.
+  ///
+  /// A tiny gap lasts while the features turn. Double-doubles know a direction for that.
   static constexpr int kPatience = 100;
 
-  /// [m]  Nearer to the margin doubles cannot tell.
+  /// [m]  Doubles cannot decide nearer to the margin.
   [[nodiscard]] double resolution() const { return 16.0 * error_; }
 
   static LinearContact freed(LinearContact result) {
@@ -102,7 +103,7 @@ class LinearPair {
     return result;
   }
 
-  /// Goes on from where doubles came.
+  /// Goes on in double-double from the time that doubles reached.
   ///
   /// @param apart  [m]  above the margin, at most
   [[nodiscard]] LinearContact solve_precisely(LinearContact result, double apart) const {
@@ -143,8 +144,10 @@ class LinearPair {
     return {{point(A_[0]), point(A_[1]), point(A_[2])}, {point(B_[0]), point(B_[1]), point(B_[2])}};
   }
 
-  /// For all of [0, 1], along an axis; most features are far apart, and this says so at once. What
-  /// is linear in time is positive throughout if it is at both ends.
+  /// Whether the features are apart along an axis for all of [0, 1].
+  ///
+  /// Most features are far apart, and this decides them at once. A function that is linear in time
+  /// is positive throughout if it is positive at both ends.
   [[nodiscard]] bool is_apart_along_axes() const {
     const Bounds A(A_);
     const Bounds B(B_);
@@ -157,7 +160,7 @@ class LinearPair {
     return beyond(A, B) || beyond(B, A);
   }
 
-  /// Around the corners, at both ends.
+  /// The bounds around the corners, at both ends.
   struct Bounds {
     explicit Bounds(const std::array<LinearPoint, 3>& corners)
         : low_from(corners[0].from),
@@ -191,8 +194,8 @@ class LinearPair {
     return moving;
   }
 
-  /// Until when the features are proven apart from t on, by the longest that any direction proves;
-  /// beyond 1 where that is to the end.
+  /// The time until which the features are proven apart from t on, by the best direction; beyond 1
+  /// where that is to the end.
   [[nodiscard]] double free_until(const TrianglePair& now, const ClosestFeatures& closest,
                                   double t) const {
     const detail::MovingCorners A = moving(now.A, A_, corners_A_.size());

@@ -15,24 +15,27 @@ using detail::PreciseCorners;
 using Type = TriangleFeature::Type;
 using Vector = DoubleDoubleVector3;
 
-constexpr double kRounding = 0x1p-96;     // Of a gap or a rate, to its terms: see the header.
-constexpr double kDifference = 0x1p-102;  // Of two positions, to their size.
+constexpr double kRounding = 0x1p-96;  // [-]  Error of a gap or a rate, relative to its terms: see
+                                       // the header.
+constexpr double kDifference = 0x1p-102;  // [-]  Error of the difference of two positions, relative
+                                          // to their size.
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// Two edges at a smaller angle have nothing across but rounding.
+/// [-]  Two edges at a smaller angle have only rounding across each other.
 constexpr double kParallel = 0x1p-80;
 
-/// Steps without an answer: features that slide along each other, nearer than doubles can tell.
+/// Most steps. They are spent where features slide along each other, nearer than doubles
+/// distinguish.
 constexpr int kMostSteps = 400;
 
 double length(const Vector& v) { return v.value().stableNorm(); }
 
-/// At least the value, which is within `error`.
+/// An upper bound of the value, which is within `error`.
 double above(const DoubleDouble& x, double error) {
   return x.hi + 0x1p-52 * std::abs(x.hi) + error;
 }
 
-/// Unit to 32 u^2; zero where v is.
+/// The unit vector along v, to 32 u^2; zero where v is.
 Vector normalised(const Vector& v) {
   const double size = length(v);
   if (!(size > 0.0) || !std::isfinite(size)) {
@@ -48,7 +51,7 @@ struct Moving {
   std::array<Vector, 3> rate;
 };
 
-/// The edges of the closest features with their rates, which a direction that turns keeps across.
+/// The edges of the closest features with their rates; a direction that turns stays across them.
 struct Directions {
   std::array<Vector, 2> edge;
   std::array<Vector, 2> rate;
@@ -73,9 +76,11 @@ struct Directions {
   }
 };
 
-/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e. The part
-/// w of the second across the first takes its place, so that nearly parallel ones serve: as n is
-/// across the first, n . w' does not depend on how w's share of it changes.
+/// The least n' with n' . e = -n . e' for each direction e, as in detail/turning_gap.cpp.
+///
+/// The part w of the second direction across the first takes the place of the second. So nearly
+/// parallel directions serve, too: as n is across the first, n . w' does not depend on how w's
+/// share of the first changes.
 Vector keep_across(const Vector& n, const Directions& d) {
   if (d.count == 0) {
     return {};
@@ -96,8 +101,10 @@ Vector keep_across(const Vector& n, const Directions& d) {
 /// A cubic c0 + c1 tau + c2 tau^2 + c3 tau^3.
 using Cubic = std::array<double, 4>;
 
-/// Whether it is positive on [0, tau]: it lies in the hull of its Bernstein coefficients there.
-/// Each is a sum of four terms, within 2^-50 of these.
+/// Whether the cubic is positive on [0, tau]: it lies in the hull of its Bernstein coefficients
+/// there.
+///
+/// Each coefficient is a sum of four terms, and within 2^-50 of these.
 bool is_positive_until(const Cubic& c, double tau) {
   const double b1 = c[1] * tau;
   const double b2 = c[2] * tau * tau;
@@ -112,7 +119,7 @@ class PreciseSearch {
   PreciseSearch(const PreciseLinearFeature& A, const PreciseLinearFeature& B,
                 const PreciseLinearOptions& options)
       : A_(A), B_(B), options_(options), t_(options.t_begin) {
-    double size = 0.0;  // Of the coordinates.
+    double size = 0.0;  // Size of the coordinates.
     const PreciseLinearPoint origin = A.corners[0];
     for (PreciseLinearFeature* feature : {&A_, &B_}) {
       for (std::size_t k = 0; k < feature->count; ++k) {
@@ -171,10 +178,10 @@ class PreciseSearch {
     return std::sqrt(closest.square.hi) * (1.0 + 0x1p-50) + error_;
   }
 
-  /// Rounded up.
+  /// The time left, rounded up.
   [[nodiscard]] double time_left() const { return above(DoubleDouble(1.0) - t_, 0x1p-100); }
 
-  /// Until when the features are proven apart, by the longest that any direction proves.
+  /// The time for which the features are proven apart, by the best direction.
   [[nodiscard]] double free_for() const {
     const double enough = time_left();
     double best = 0.0;
@@ -199,7 +206,7 @@ class PreciseSearch {
     return best;
   }
 
-  /// As the function of separating_direction.h.
+  /// Calls use(n) as for_each_plane_normal() of separating_direction.h does.
   template <class Use>
   void for_each_plane_normal(const Use& use) const {
     const auto both = [&](const Vector& n) {
@@ -232,13 +239,14 @@ class PreciseSearch {
                                              : fixed;
   }
 
-  /// For how long the corners stay apart along the product N(tau) of two edges, those of the
-  /// closest features, as these go on: N(tau) is what stays across a face, or two edges, that turn.
-  /// No other direction does so where a tiny gap lasts.
+  /// The time for which the corners stay apart along the product N(tau) of two edges.
   ///
-  /// Derivation: N is of the second degree and N . e of the third for each pair of corners, e
-  /// linear. The corners are farther apart than h as long as N . e > h |N|, with |N| <= M. Each of
-  /// the four coefficients errs by kRounding of M reach at most, as rates do.
+  /// The edges are those of the closest features, as they move. So N(tau) stays across a face, or
+  /// two edges, that turn. No other direction does so where a tiny gap lasts.
+  ///
+  /// Derivation: N is of the second degree. With e linear, N . e is of the third for each pair of
+  /// corners. The corners are farther apart than h as long as N . e > h |N|, with |N| <= M. Each of
+  /// the four coefficients errs by at most kRounding of M reach, as rates do.
   [[nodiscard]] double time_across_features(double enough) const {
     const Directions d = directions();
     if (d.count < 2) {
@@ -276,9 +284,11 @@ class PreciseSearch {
     return directions;
   }
 
-  /// For how long n(tau) = n + tau n' keeps all corners of B farther than the threshold from all of
-  /// A; advance_deforming() has the derivation. The error of positions holds at all times: it is
-  /// part of the threshold.
+  /// The time for which n(tau) = n + tau n' keeps all corners of B farther than the threshold from
+  /// all of A.
+  ///
+  /// advance_deforming() has the derivation. The error of positions holds at all times: it is part
+  /// of the threshold.
   [[nodiscard]] double time_open(const Vector& n, const Vector& n_rate, double enough) const {
     const double h = options_.threshold + error_;
     const double turning = length(n_rate) * kUp;
@@ -301,7 +311,7 @@ class PreciseSearch {
     return tau;
   }
 
-  /// At the last double that is not after t_: it was proven free until then.
+  /// A contact at the last double that is not after t_; the features are proven free until then.
   PreciseLinearContact contact() {
     const double t = t_.lo < 0.0 ? std::nextafter(t_.hi, 0.0) : t_.hi;
     result_.t = std::max(options_.t_begin, t);
@@ -313,7 +323,7 @@ class PreciseSearch {
     return result_;
   }
 
-  /// What doubles would have called a contact is one.
+  /// The result where no step is possible: a contact where doubles would have reported one.
   PreciseLinearContact stalled() {
     move_to(t_);
     const double apart = distance_above(precise_closest(now_A_.at, now_B_.at));

@@ -15,8 +15,8 @@ namespace firstcontact {
 /// The direction that the closest features define, of any length and either sign.
 ///
 /// It is the normal of a face, or the product of two edges. For an edge and a corner it is the part
-/// of p_B - p_A across the edge, for two corners p_B - p_A. Other than p_B - p_A it stays accurate
-/// when the points nearly coincide.
+/// of p_B - p_A across the edge. For two corners it is p_B - p_A. Unlike p_B - p_A the first three
+/// stay accurate where the points nearly coincide.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d separating_direction(const TrianglePair& pair,
                                                                     const ClosestFeatures& closest);
 

@@ -36,7 +36,7 @@ std::optional<ClosestFeatures> piercing(const Triangle& S, int k, const Triangle
   return edge_through_face(S, k, T, foot(corners, k), foot(corners, (k + 1) % 3), swapped);
 }
 
-/// But for piercings.
+/// The closest points, piercings left out.
 ClosestFeatures nearest(const Triangle& A, const Triangle& B, const ElementaryPairs& pairs) {
   const int row = pairs.nearest / kStride;
   const int k = std::min(pairs.nearest % kStride, 2);
@@ -50,7 +50,7 @@ ClosestFeatures nearest(const Triangle& A, const Triangle& B, const ElementaryPa
 bool has_corner(unsigned features, int i) { return (features & 1u << i) != 0; }
 bool has_edge(unsigned features, int i) { return (features & 8u << i) != 0; }
 
-/// A number below kFeatures.
+/// The number of a feature, below kFeatures.
 constexpr std::size_t kFeatures = 7;
 std::size_t number_of(const TriangleFeature& feature) {
   return 3 * static_cast<std::size_t>(feature.type) + static_cast<std::size_t>(feature.index);
@@ -77,9 +77,10 @@ ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band,
                                   unsigned features_A, unsigned features_B) {
   FeaturePairs within;
-  std::array<std::uint8_t, kFeatures * kFeatures> place{};  // Plus 1; 0: not there yet.
+  std::array<std::uint8_t, kFeatures * kFeatures> place{};  // Place plus 1; 0: not there yet.
   const double reach =
-      band + 0x1p-46 * (greatest_coordinate(A) + greatest_coordinate(B));  // More than squares err.
+      // Beyond the error of squares.
+      band + 0x1p-46 * (greatest_coordinate(A) + greatest_coordinate(B));
   const double reach2 = reach * reach;
   const auto use = [&](const ClosestFeatures& c) {
     if (!(c.distance <= band)) {

@@ -18,7 +18,7 @@ using detail::kUp;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// [-]  Sine of the angle of two edges below which the face's normal is not worth using.
+/// [-]  Sine of the angle of two edges below which the face's normal is no useful direction.
 constexpr double kNeedle = 1e-6;
 
 /// A face at rest and a vertex that moves, both from A's pivot in A's axes at the start.
@@ -63,7 +63,7 @@ class VertexAndFace {
     return {normal_.dot(p_ - corner_), normal_.dot(detail::relative_rate(seen_, motion_.A.rate))};
   }
 
-  /// f = Rot(z) normal . (line + Rot(axis_B) swing) - normal . a.
+  /// Bounds f = Rot(z) normal . (line + Rot(axis_B) swing) - normal . a.
   [[nodiscard]] CurvatureBound coplanarity_bounds() {
     const double w_A = motion_.A.rate;
     // The point that p turns about moves on a line, which is farthest from A's axis at an end.
@@ -73,7 +73,7 @@ class VertexAndFace {
         detail::longest(begin, Vector2d(begin + (motion_.t_end - motion_.t_begin) * drift));
     speed_bound_ =
         (motion_.drift_length + motion_.B.rate * circle_B_ + w_A * (across + circle_B_)) * kUp;
-    // The normal is a product of edges that are rounded themselves.
+    // The normal is a product of rounded edges.
     const double normal_error = motion_.rounding * edges_product_;
     const AxialParts normal{std::abs(normal_.z()) + normal_error,
                             normal_.head<2>().norm() + normal_error};
@@ -87,7 +87,7 @@ class VertexAndFace {
     return bounds;
   }
 
-  /// Along the direction from the nearest point, which stands still in the world.
+  /// The gaps along the direction from the nearest point, which stands still in the world.
   [[nodiscard]] detail::Gaps<3> gaps() const {
     const Vector3d d = from_nearest_point();
     // A corner a moves at rate z x a, along d at -a . turn.
@@ -100,9 +100,11 @@ class VertexAndFace {
     return gaps;
   }
 
+  /// Whether p provably meets the face where it is coplanar with it within `duration`.
+  ///
   /// Derivation: on the plane of the face, p is inside where it is on the inner side of each edge.
-  /// The computed inward normal of an edge errs by the tilt of the face's normal, p by its own
-  /// error and by its way from t.
+  /// The computed inward normal of an edge errs by the tilt of the face's normal. p errs by its own
+  /// error and by its displacement since t.
   [[nodiscard]] bool meet_if_coplanar(double duration) const {
     if (flat_) {
       return false;
@@ -121,9 +123,11 @@ class VertexAndFace {
  private:
   using Lanes = Eigen::Array4d;  // One for each edge, or for the corner where it begins.
 
-  /// From the face's nearest feature: along its normal, or across an edge that p is outside of, or
-  /// from a corner; of any length. Stays accurate where p touches. All edges at once, without
-  /// branches: which one is nearest cannot be foreseen.
+  /// The direction from the face's nearest feature, of any length.
+  ///
+  /// It is along the face's normal, or across an edge that p is outside of, or from a corner. It
+  /// stays accurate where p touches. All edges are computed at once, without branches: which one is
+  /// nearest cannot be foreseen.
   [[nodiscard]] Vector3d from_nearest_point() const {
     const Lanes x = p_.x() - corner_lanes_[0];
     const Lanes y = p_.y() - corner_lanes_[1];
@@ -135,7 +139,7 @@ class VertexAndFace {
     Lanes d_z = z - on_edge * edge_lanes_[2];
     const Lanes inside = x * inward_lanes_[0] + y * inward_lanes_[1] + z * inward_lanes_[2];
     const Lanes square = d_x * d_x + d_y * d_y + d_z * d_z + inside.max(0.0) * inside_penalty_;
-    // What rounding has left along the edge.
+    // The rest along the edge that rounding has left.
     const Lanes left =
         (d_x * edge_lanes_[0] + d_y * edge_lanes_[1] + d_z * edge_lanes_[2]) * inverse_ -
         (s - on_edge);
@@ -163,7 +167,7 @@ class VertexAndFace {
   std::array<Vector3d, 3> edges_;
   Vector3d normal_;
   std::array<Vector3d, 3> inward_;  // Across the edges, of any length.
-  Lanes inverse_;                   // Of the squared lengths of edges.
+  Lanes inverse_;                   // Reciprocals of the squared lengths of edges.
   double normal_length_;
   double edges_product_;
   bool flat_;

@@ -21,11 +21,10 @@ namespace firstcontact {
 ///
 /// A root is a contact where p is inside the face on all of the isolating interval. Rounded
 /// arithmetic cannot prove exact contacts with the face's border, tangential contacts and slides
-/// within the plane (f = 0 throughout). `existence_proven` and `degenerate` report them.
-///
 /// Sources: the equations are from J. Canny, "Collision detection for moving polyhedra", IEEE
 /// Trans. PAMI 8 (1986). Interval root isolation on one relative motion is from S. Redon, A.
 /// Kheddar, S. Coquillart, "Fast continuous collision detection between rigid bodies", Computer
+/// Graphics Forum 21 (2002). The one-sided parabolas replace it here.
 /// Graphics Forum 21 (2002). The one-sided parabolas replace it here.
 ///
 /// Proven for the exact motion that `motion` was made of; see ElementaryContact. Not symmetric: for

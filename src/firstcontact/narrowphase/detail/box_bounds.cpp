@@ -26,8 +26,8 @@ HWY_INLINE void bound(const BoxFrame& frame, const NodePair (&pairs)[kPairs],
     placer.place(first);
   }
   if constexpr (kPairs > 1) {
-    // Compilers would keep what is placed in registers and shuffle it from there for each pair. The
-    // processor does that while it loads, and has better use for the ports of shuffles.
+    // Compilers would keep the placed numbers in registers and shuffle them from there for each
+    // pair. The processor does that while it loads, and has better use for its shuffle ports.
     asm volatile("" : : "r"(&placed) : "memory");
   }
   const Pairs<hn::CappedTag<float, 16>, kDeforms> lanes;

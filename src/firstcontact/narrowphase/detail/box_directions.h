@@ -1,6 +1,7 @@
 /// @file
-/// How long pairs of placed boxes stay apart, along five directions. Included once for each
-/// instruction set.
+/// The time for which pairs of placed boxes stay apart, along five directions.
+///
+/// Included once for each instruction set.
 
 #if defined(FIRSTCONTACT_QUERY_DETAIL_BOX_DIRECTIONS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIRSTCONTACT_QUERY_DETAIL_BOX_DIRECTIONS_H
@@ -38,7 +39,7 @@ struct Pairs {
                                   hn::SetTableIndices(d, kBoxOfLane + first));
     }
   }
-  /// The four values of B's boxes, again and again.
+  /// The four values of B's boxes, repeated.
   HWY_INLINE V<D> box_of_b(const float* field, std::size_t first) const {
     if constexpr (hn::MaxLanes(D()) == 1) {
       return hn::Set(d, field[first % 4]);
@@ -51,7 +52,7 @@ struct Pairs {
     V<D> gap;  // net of slack, along the direction that seems to stay open longest
     V<D> speed;
     V<D> twice_acceleration;
-    V<D> largest_gap;  // of any direction, net of slack
+    V<D> largest_gap;  // The largest gap of any direction, net of slack.
     V<D> nearness;     // least distance of any gap from the middle of the band of doubt
   };
 
@@ -60,8 +61,8 @@ struct Pairs {
     V<D> radius_b;
     V<D> twice_reach_a;
     V<D> twice_reach_b;
-    V<D> charge;    // threshold and slack
-    V<D> spread_a;  // times its turn: what the extent may grow faster by than was told
+    V<D> charge;    // Threshold and slack.
+    V<D> spread_a;  // Times its turn: addition to the rate of the extent.
     V<D> spread_b;
     V<D> slip;
     V<D> twice_slip_acceleration;
@@ -85,22 +86,26 @@ struct Pairs {
     V<D> along_b[3];
   };
 
-  /// A direction n, |n| within kRoughness of 1; its length does not enter the time, as gap, speed
-  /// and acceleration are all in proportion to it.
+  /// A direction n, with |n| within kRoughness of 1.
+  ///
+  /// Its length does not enter the time, as gap, speed and acceleration are all in proportion to
+  /// it.
   struct Direction {
     V<D> raw_gap;
-    V<D> opening;  // by the centres
-    V<D> swing;    // how fast the extents grow; of bodies that deform without their turning
+    V<D> opening;  // Rate of the gap by the centres.
+    V<D> swing;    // Rate at which the extents grow; for deforming bodies without their turning.
     V<D> turn_a;
     V<D> turn_b;
   };
   static constexpr int kDirections = 5;
 
-  /// The direction along which the gap seems to stay open longest: by twice the reciprocal of that
-  /// time, m / g + sqrt((m / g)^2 + 2 K / g), which is about 0 where the gap opens.
+  /// The direction along which the gap seems to stay open longest.
   ///
-  /// Each line is written for all directions before the next one, as processors wait for one
-  /// direction's results otherwise.
+  /// Directions are compared by twice the reciprocal of that time, m / g + sqrt((m / g)^2 + 2
+  /// K / g). It is about 0 where the gap opens.
+  ///
+  /// Each line is written for all directions before the next one. Otherwise processors wait for the
+  /// results of one direction.
   HWY_INLINE Best best_of(const Sizes& s, const Direction* n) const {
     V<D> gap[kDirections];
     V<D> speed[kDirections];
@@ -162,14 +167,14 @@ struct Pairs {
     return best;
   }
 
-  /// The extent of a box along a direction that has these components along its axes; or, of the
-  /// rates of its half extents, its rate.
+  /// The extent of a box along a direction with these components along its axes; for the rates of
+  /// half extents, the rate of the extent.
   HWY_INLINE V<D> extent_along(const V<D>* n, const V<D>* extent) const {
     return hn::MulAdd(hn::Abs(n[0]), extent[0],
                       hn::MulAdd(hn::Abs(n[1]), extent[1], hn::Mul(hn::Abs(n[2]), extent[2])));
   }
 
-  /// The same at the horizon, along the direction that the turning box then sees.
+  /// The extent at the horizon, along the direction as seen from the turning box.
   HWY_INLINE V<D> extent_at_horizon(const V<D>* n, const V<D>* swept, const V<D>* extent) const {
     V<D> seen[3];
     for (int k = 0; k < 3; ++k) {
@@ -180,7 +185,7 @@ struct Pairs {
     return extent_along(seen, extent);
   }
 
-  /// At least w |n x u| of a body that turns, from what it turns until the horizon; n as above.
+  /// At least w |n x u| of a body that turns, from its turn until the horizon; n as above.
   HWY_INLINE V<D> turn_against(const BoxFrame& frame, const V<D>* n, const V<D>* swept) const {
     V<D> turning[3];
     cross(n, swept, turning);
@@ -189,8 +194,9 @@ struct Pairs {
                    hn::Set(d, (1.0f + kRoughness) / chord_end(frame)));
   }
 
-  /// The rate of the chord from an extent now to that at the horizon, and more; in between it is
-  /// not more, as it is convex.
+  /// The rate of the chord from an extent now to that at the horizon, plus `more`.
+  ///
+  /// An extent is convex, so in between it is not above the chord.
   HWY_INLINE V<D> chord(const BoxFrame& frame, V<D> now, V<D> at_horizon, V<D> more) const {
     return hn::MulAdd(hn::Sub(at_horizon, now), hn::Set(d, 1.0f / chord_end(frame)), more);
   }
@@ -198,9 +204,11 @@ struct Pairs {
   /// x with its sign turned where y is negative.
   HWY_INLINE V<D> with_sign(V<D> x, V<D> y) const { return hn::Xor(x, hn::And(y, hn::SignBit(d))); }
 
-  /// time_to_close() of math/root_isolation.h for half the acceleration, in single precision:
-  /// 2 g / (m + sqrt(m^2 + 2 K g)); 0 where the gap is not open, or not a number. Exact roots and
-  /// quotients, as tied pairs must stay tied.
+  /// The time until the gap closes: 2 g / (m + sqrt(m^2 + 2 K g)).
+  ///
+  /// It is 0 where the gap is not open, or not a number. See time_to_close() of
+  /// math/root_isolation.h; K here is half of the acceleration there, in single precision. Roots
+  /// and quotients are exact, as tied pairs must stay tied.
   HWY_INLINE V<D> time_to_close(const BoxFrame& frame, const Best& best) const {
     const V<D> open = hn::Max(best.gap, hn::Zero(d));
     const V<D> root =
@@ -240,7 +248,7 @@ struct Pairs {
                         hn::Add(hn::Set(d, frame.speed), hn::Add(reach_a, reach_b)),
                         hn::Set(d, (1.0f + kRoughness) * frame.drift));
     constexpr float kLength =
-        2.0f * (1.0f + 2.0f * kRoughness);  // Twice that of a direction, at most.
+        2.0f * (1.0f + 2.0f * kRoughness);  // At most twice the length of a direction.
     const V<D> bend = hn::MulAdd(
         of_a(placed.distance), hn::Set(d, kLength * frame.bend_by_distance[0]),
         hn::MulAdd(of_b(placed.distance), hn::Set(d, kLength * frame.bend_by_distance[1]),

@@ -43,17 +43,19 @@ constexpr float kRoughness = HWY_TARGET <= HWY_AVX3 ? 0x1p-13f : 0x1p-11f;
 #else
 constexpr float kRoughness = 0x1p-18f;
 #endif
-constexpr float kSmallestGap = 0x1p-40f;  // Of which the reciprocal is taken.
-constexpr float kTiny = 0x1p-60f;         // Above what underflow can lose in a square.
-constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when their unit is scaled.
-constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
+constexpr float kSmallestGap = 0x1p-40f;  // The least gap whose reciprocal is taken.
+constexpr float kTiny = 0x1p-60f;         // Above the loss of a square by underflow.
+constexpr float kTinyLength = 0x1p-100f;  // Above the loss of extents when their unit is scaled.
+constexpr float kExtentDoubt = 0x1p-9f;   // [-]  Part of the radius, above the rounding up of
+                                          // extents.
 constexpr float kLargest = 1e30f;         // Beyond, products may overflow.
-constexpr float kShortest = 0x1p-40f;     // Of the times until which extents are followed.
+constexpr float kShortest = 0x1p-40f;     // The least time until which extents are followed.
 
 template <class D>
 using V = hn::Vec<D>;
 
-/// What get(tag, lane) says of the lanes from that one on, which are at most four, of one node.
+/// The values that get(tag, lane) returns for the lanes from that one on, at most four, of one
+/// node.
 template <class D, class Get>
 HWY_INLINE V<D> of_parts(D d, std::size_t first, const Get& get) {
   if constexpr (hn::MaxLanes(D()) > 4) {
@@ -69,8 +71,10 @@ HWY_INLINE V<D> dot(D, const V<D>* x, const V<D>* y) {
   return hn::MulAdd(x[0], y[0], hn::MulAdd(x[1], y[1], hn::Mul(x[2], y[2])));
 }
 
-/// Within 3/4 kRoughness of 1 / x and 1 / sqrt(x): x86 promises 2^-14 for the whole registers of
-/// AVX-512 and 1.5 x 2^-12 for others; elsewhere they are exact up to rounding.
+/// The reciprocals 1 / x and 1 / sqrt(x), within 3/4 kRoughness.
+///
+/// x86 promises 2^-14 for the whole registers of AVX-512 and 1.5 x 2^-12 for others. Elsewhere they
+/// are exact up to rounding.
 template <class D>
 HWY_INLINE V<D> reciprocal(D d, V<D> x) {
   static_assert(kRoughness > 0x1p-12f || kRoughness < 0x1p-15f || hn::MaxLanes(D()) == 16);
@@ -92,7 +96,9 @@ HWY_INLINE V<D> reciprocal_root(D d, V<D> x) {
   }
 }
 
-/// At least sqrt(x), and hardly more, if x >= 0 is below by a few units in the last place.
+/// An upper bound of sqrt(x), within 2^-20 of it and kTiny.
+///
+/// It also holds for x that is too small by a few units in the last place.
 template <class D>
 HWY_INLINE V<D> root_up(D d, V<D> x) {
   return hn::Mul(hn::Sqrt(hn::Add(x, hn::Set(d, kTiny * kTiny))), hn::Set(d, 1.0f + 0x1p-21f));

@@ -18,14 +18,14 @@ HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Corners are three; the fourth repeats the third.
+/// Number of lanes of corners: three, and the fourth repeats the third.
 inline constexpr std::size_t kCornerLanes = 4;
 
-/// One component of corners first, first + 1, ..., as many as the vector holds. With `next` those
-/// that follow each of them in the triangle.
+/// One component of corners first, first + 1, ..., as many as the vector holds.
 ///
-/// Put together from single numbers: a vector that was just written in parts is slow to load. Some
-/// instruction sets have no Combine(), so that it is found by its arguments.
+/// With `next` it is the component of the next corner in the triangle. Single numbers are put
+/// together, as a vector that was just written in parts is slow to load. Some instruction sets have
+/// no Combine(), so that it is found by its arguments.
 template <class D>
 HWY_INLINE hn::Vec<D> corner_lanes(D d, const Triangle& T, int component, std::size_t first,
                                    bool next) {

@@ -15,7 +15,8 @@ namespace firstcontact::detail {
 
 /// Up to four points; reduce() keeps those whose convex combination is nearest to the origin.
 ///
-/// All in plain doubles: shares are >= 0 and sum up to 1 but for rounding, whatever the points.
+/// All numbers are plain doubles. Shares are >= 0 and sum up to 1 up to rounding, whatever the
+/// points.
 class DifferenceSimplex {
  public:
   struct Corner {
@@ -39,7 +40,7 @@ class DifferenceSimplex {
   [[nodiscard]] const Corner& corner(std::size_t k) const { return corners_[k]; }
   [[nodiscard]] bool holds_origin() const { return holds_origin_; }
 
-  /// From the origin to the nearest point, or along the normal there; any length.
+  /// The vector from the origin to the nearest point, or along the normal there; any length.
   [[nodiscard]] const Eigen::Vector3d& direction() const { return direction_; }
 
   void reduce() {
@@ -64,7 +65,7 @@ class DifferenceSimplex {
     std::array<Corner, 3> corners;
     std::size_t count = 0;
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-    double square = std::numeric_limits<double>::infinity();  // Of the distance.
+    double square = std::numeric_limits<double>::infinity();  // Square of the distance.
   };
 
   void take(const Nearest& best) {
@@ -111,8 +112,9 @@ class DifferenceSimplex {
     return y.square < x.square ? y : x;
   }
 
-  /// By the signs of areas: where the foot of the origin lies outside of an edge, that edge or an
-  /// end of it is nearest.
+  /// The nearest point by the signs of areas.
+  ///
+  /// Where the foot of the origin lies outside of an edge, that edge or an end of it is nearest.
   [[nodiscard]] Nearest of_triangle(std::size_t i, std::size_t j, std::size_t k) const {
     const Eigen::Vector3d& a = points_[i];
     const Eigen::Vector3d& b = points_[j];
@@ -175,7 +177,7 @@ class DifferenceSimplex {
       combined += corners_[k].share * points_[all[k]];
       size2 = std::max(size2, points_[all[k]].squaredNorm());
     }
-    // Of a flat one rounding may say so wrongly.
+    // Rounding may wrongly find the origin inside of a flat tetrahedron.
     constexpr double kNothing = 0x1p-80;
     if (inside && combined.squaredNorm() <= kNothing * size2) {
       holds_origin_ = true;

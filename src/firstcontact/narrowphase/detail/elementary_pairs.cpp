@@ -24,12 +24,12 @@ constexpr std::int64_t kPlaceBits = 31;
 using D = hn::CappedTag<double, kStride>;
 using V = hn::Vec<D>;
 
-/// A triangle: of corner k, or of the edge that begins there, at [k]; the last repeats the third.
+/// A triangle: corner k, and the edge that begins there, at [k]; the last repeats the third.
 struct Prepared {
   alignas(32) double corner[3][kStride];
   double edge[3][kStride];
   double square[kStride];
-  double inverse_square[kStride];  // 0 of an edge without length.
+  double inverse_square[kStride];  // 0 for an edge without length.
   FaceWays face;
 };
 
@@ -112,8 +112,9 @@ HWY_INLINE V corners_over_face(const Prepared& S, const Prepared& T, std::size_t
   return feet.square;
 }
 
-/// Squares with their place in the last bits: of the least, the place is known. Neither infinity
-/// nor what flushes to zero could hold it.
+/// Squares with their place in the last bits, so that the place of the least is known.
+///
+/// Neither infinity nor a number that flushes to zero could hold it.
 HWY_INLINE V with_place(V square, std::size_t place) {
   const D d;
   square = hn::Min(hn::Max(square, hn::Set(d, kTiny)), hn::Set(d, ElementaryPairs::kNone));

@@ -16,7 +16,7 @@
 
 namespace firstcontact::detail {
 
-/// For how long a gap provably stays open, and has been.
+/// The times for which a gap provably stays open, and has been open.
 struct OpenTimes {
   double ahead = 0.0;
   double since = 0.0;
@@ -28,8 +28,8 @@ struct Gaps {
   std::array<ValueAndRate, N> corners;
   CurvatureBound bounds;
 
-  /// The times of all pairs: time_positive() forth and back, without branches and with one root for
-  /// both.
+  /// The times over all pairs: time_positive() forth and back, without branches and with one root
+  /// for both.
   ///
   /// The root is that of the greater speed. NaN takes the safe side.
   [[nodiscard]] OpenTimes open_times() const {
@@ -51,14 +51,19 @@ struct Gaps {
   }
 };
 
-/// Finds where the features of `Pair` first meet. While much is left, looks at the middle of it for
-/// a gap; then goes from t to where a gap, or the sign of f, is no longer certain; near a root of f
-/// it leaps ahead, isolates the root and looks back.
+/// Finds where the features of `Pair` first meet.
 ///
-/// Pair offers: move_to(t), places the features; coplanarity(), of their function f there, and
-/// coplanarity_bounds(), of f over the whole piece; gaps(), along a direction that may keep them
-/// apart; meet_if_coplanar(duration), after coplanarity_bounds(): whether the features provably
-/// meet where they are coplanar within `duration` of t.
+/// While much is left, the search looks for a gap at the middle of it. Then it goes from t to where
+/// neither a gap nor the sign of f is certain any more. Near a root of f it leaps ahead, isolates
+/// the root and looks back.
+///
+/// `Pair` offers:
+/// - move_to(t) places the features.
+/// - coplanarity() is their function f there, and coplanarity_bounds() bounds f over the whole
+///   piece.
+/// - gaps() are those along a direction that may keep the features apart.
+/// - meet_if_coplanar(duration), after coplanarity_bounds(), is whether the features provably meet
+///   where they are coplanar within `duration` of t.
 template <class Pair>
 class ElementarySearch {
  public:
@@ -91,11 +96,11 @@ class ElementarySearch {
     double end = 0.0;
   };
 
-  /// [-]  Where the gap leads as far, f would rarely lead farther.
+  /// [-]  Where a gap holds for so long, f would rarely hold for longer.
   static constexpr double kFar = 1.0 / 32.0;
-  /// [-]  The width from which a part that is not yet proven is looked at from its middle.
+  /// [-]  The width from which an unproven window is looked at from its middle.
   static constexpr double kWide = 1.0 / 8.0;
-  /// Steps that are to gain more than the tolerance together.
+  /// Number of steps that are to gain more than the tolerance together.
   static constexpr int kPatience = 64;
 
   void step() {
@@ -117,7 +122,8 @@ class ElementarySearch {
     if (done_) {
       return;
     }
-    // Seen from a root, its own side reaches back by 2 |f'| / K; the rate here guesses that there.
+    // Seen from a root, its own side reaches back by 2 |f'| / K. The rate here estimates that at
+    // the root.
     const double root = g.value > bounds.value_error ? t - g.value / g.rate : t;
     if (root >= t && (root - t_) * bounds.curvature <= std::abs(g.rate)) {
       follow_root(std::clamp(root, t_, t_end_));
@@ -127,14 +133,14 @@ class ElementarySearch {
     }
   }
 
-  /// Where what is not yet proven ends.
+  /// The end of the window that is not yet proven.
   [[nodiscard]] double open_end() const {
     return ahead_count_ > 0 ? ahead_[ahead_count_ - 1].begin : t_end_;
   }
 
   /// Proves as much as possible on both sides of the middle between t_ and `end`.
   ///
-  /// A gap there leads twice as far as one at t_, and the features are more likely near.
+  /// A gap there gains twice as much time as one at t_, and the features are more likely near.
   void look_ahead(double end) {
     const double x = 0.5 * (t_ + end);
     move_to(x);
@@ -150,8 +156,10 @@ class ElementarySearch {
     }
   }
 
-  /// Looks at x >= t_ for a root whose own side reaches back to t_. Shrinks its bracket until the
-  /// features provably meet, or a gap leads past it, or rounding allows no more.
+  /// Looks at x >= t_ for a root whose own side reaches back to t_.
+  ///
+  /// The search shrinks the root's bracket until the features provably meet, a gap holds beyond it,
+  /// or rounding allows no more.
   void follow_root(double x) {
     const CurvatureBound& bounds = coplanarity_bounds();
     ValueAndRate g = falling(evaluate(x));
@@ -162,7 +170,7 @@ class ElementarySearch {
     }
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
-    double curvature = 0.0;  // Of g, an estimate.
+    double curvature = 0.0;  // An estimate of the curvature of g.
     bool meets = false;
     bool halved = false;
     while (true) {
@@ -200,7 +208,7 @@ class ElementarySearch {
     }
   }
 
-  /// If the gap at x leads from t_ beyond `to`.
+  /// Whether the gap at x holds from t_ until beyond `to`; then proceeds there.
   bool proceed_along_gap(double x, double to) {
     const OpenTimes open = pair_.gaps().open_times();
     const double beyond = std::max(x, later(x, open.ahead));
@@ -214,7 +222,7 @@ class ElementarySearch {
   /// t + duration, rounded down; the step ends before 2.
   static double later(double t, double duration) { return below(t + std::min(duration, 2.0)); }
 
-  /// To the root of g + g' y + curvature y^2 / 2, to second order.
+  /// The step to the root of g + g' y + curvature y^2 / 2, to second order.
   static double newton_step(const ValueAndRate& g, double curvature) {
     const double y = -g.value / g.rate;
     return y - 0.5 * curvature * y * y / g.rate;
@@ -222,7 +230,7 @@ class ElementarySearch {
 
   static ValueAndRate falling(const ValueAndRate& f) { return f.rate < 0.0 ? f : -f; }
 
-  /// Whether many steps have gained no time: a touch within rounding, slid along.
+  /// Whether many steps have gained no time, as along a touch within rounding.
   bool stalls() {
     if (steps_ < next_check_) {
       return false;
@@ -240,7 +248,7 @@ class ElementarySearch {
     pair_.move_to(t);
   }
 
-  /// Only near a root are they worth their cost.
+  /// The bounds of f; only near a root are they worth their cost.
   const CurvatureBound& coplanarity_bounds() {
     if (!coplanarity_bounds_) {
       coplanarity_bounds_ = pair_.coplanarity_bounds();
@@ -275,11 +283,11 @@ class ElementarySearch {
   double t_begin_;
   double t_end_;
   double t_;          ///< Proven: the features do not meet before.
-  double t_checked_;  ///< t_ when stalls() last looked.
+  double t_checked_;  ///< The value of t_ when stalls() last looked.
   int next_check_ = kPatience;
   int steps_ = 0;
   std::optional<CurvatureBound> coplanarity_bounds_;
-  std::array<Proven, 4> ahead_;  ///< The next one last. Each halves what is left: there are 3.
+  std::array<Proven, 4> ahead_;  ///< The next one last. Each halves the open window: there are 3.
   std::size_t ahead_count_ = 0;
   bool done_ = false;
   ElementaryContact result_;

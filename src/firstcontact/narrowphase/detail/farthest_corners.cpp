@@ -42,7 +42,7 @@ HWY_INLINE Eigen::Index first_of_greatest(const Vector& most, const Vector& wher
   return static_cast<Eigen::Index>(rows[best]);
 }
 
-/// Calls use(row, x, y, z) for all corners; at the end some are seen twice.
+/// Calls use(row, x, y, z) for all corners; some of the last ones come twice.
 template <class Use>
 HWY_INLINE void for_each(const PointRows& corners, const Use& use) {
   const Lanes d;

@@ -1,5 +1,5 @@
 /// @file
-/// Which corners of a polytope are farthest along a few directions.
+/// The corners of a polytope that are farthest along a few directions.
 
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace firstcontact::detail {
 
-/// As many directions are looked along at once: corners are read but once.
+/// Most directions at once: corners are then read only once.
 inline constexpr std::size_t kDirections = 3;
 
-/// Finds for each direction the row whose product with it is greatest but for rounding.
+/// Finds for each direction the row whose product with it is greatest, up to rounding.
 ///
 /// It is the first if there are several, or if the product is not a number. Several corners are
 /// taken at a time, as many as the processor can.

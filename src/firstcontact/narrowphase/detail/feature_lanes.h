@@ -1,6 +1,7 @@
 /// @file
-/// Distances of edges, and of corners from faces, side by side in vectors. Included once for each
-/// instruction set.
+/// Distances of edges, and of corners from faces, side by side in vectors.
+///
+/// Included once for each instruction set.
 
 #if defined(FIRSTCONTACT_NARROWPHASE_DETAIL_FEATURE_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIRSTCONTACT_NARROWPHASE_DETAIL_FEATURE_LANES_H
@@ -30,13 +31,13 @@ HWY_INLINE hn::Vec<D> unit_interval(D d, hn::Vec<D> x) {
   return hn::Min(hn::Max(x, hn::Zero(d)), hn::Set(d, 1.0));
 }
 
-/// 0 of an edge without length.
+/// The reciprocal of a squared length; 0 for an edge without length.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_of_square(D d, hn::Vec<D> square) {
   return hn::IfThenElseZero(hn::Gt(square, hn::Zero(d)), hn::Div(hn::Set(d, 1.0), square));
 }
 
-/// Edges: where they begin, the ways along them, and the squares of their lengths.
+/// Edges: their first ends, the vectors along them, and the squares of their lengths.
 template <class D>
 struct EdgeLanes {
   hn::Vec<D> corner[3];
@@ -47,15 +48,15 @@ struct EdgeLanes {
 
 template <class D>
 struct ClosestOnEdges {
-  hn::Vec<D> square;  // Of the distance.
-  hn::Vec<D> s;       // Where on A's edge, in [0, 1].
-  hn::Vec<D> t;       // Where on B's.
+  hn::Vec<D> square;  // Square of the distance.
+  hn::Vec<D> s;       // Place on A's edge, in [0, 1].
+  hn::Vec<D> t;       // Place on B's edge, in [0, 1].
 };
 
 /// Finds the closest points of edges of A and edges of B.
 ///
-/// One parameter comes from the normal equations. Then each is made the best for the other, which
-/// also mends the loss of near-parallel edges.
+/// One parameter comes from the normal equations. Then each parameter is made the best for the
+/// other. That also recovers the accuracy that near-parallel edges lose.
 template <class D>
 HWY_INLINE ClosestOnEdges<D> closest_on_edges(D d, const EdgeLanes<D>& A, const EdgeLanes<D>& B) {
   using V = hn::Vec<D>;
@@ -93,10 +94,10 @@ struct FaceLanes {
 
 template <class D>
 struct FeetOfCorners {
-  hn::Vec<D> square;  // Of the distance; kNoSquare where the foot is not inside.
+  hn::Vec<D> square;  // Square of the distance; kNoSquare where the foot is not inside.
   hn::Vec<D> u;
   hn::Vec<D> v;
-  hn::Vec<D> height;  // Over the face's plane, of any unit.
+  hn::Vec<D> height;  // Height over the face's plane, in any unit.
 };
 
 template <class D>
@@ -124,7 +125,7 @@ HWY_INLINE void cross(const double* x, const double* y, double scale, double* pr
   product[2] = (x[0] * y[1] - x[1] * y[0]) * scale;
 }
 
-/// The normal of a face, and the ways across it.
+/// The normal of a face, and the vectors across it.
 struct FaceWays {
   double normal[3];
   double across[2][3];

@@ -1,5 +1,5 @@
 /// @file
-/// Normals of what is flat or straight on a convex core.
+/// Normals of flat faces and straight lines of a convex core.
 
 #pragma once
 
@@ -13,12 +13,14 @@
 namespace firstcontact::detail {
 
 /// The normal near n of a face or a straight line of a core, in the core's axes; zero where there
-/// is none near. A guess: any direction serves a search.
+/// is none near.
+///
+/// It is a guess: any direction serves a search.
 ///
 /// @param n  [-]  unit
 inline Eigen::Vector3d flat_direction(const ConvexCore& core, const Eigen::Vector3d& n) {
   constexpr double kNear = 0.99;   // [-]  Cosine to the normal of a face.
-  constexpr double kAside = 0.14;  // [-]  Of n along a straight line.
+  constexpr double kAside = 0.14;  // [-]  Component of n along a straight line.
   const Eigen::Vector3d z(0.0, 0.0, std::copysign(1.0, n.z()));
   const auto across_z = [&] { return Eigen::Vector3d(n.x(), n.y(), 0.0).normalized(); };
   switch (core.kind) {

@@ -14,7 +14,7 @@
 
 namespace firstcontact::detail {
 
-/// Outweighs the roundings of the few operations in a bound.
+/// Factor above 1 that outweighs the roundings of the few operations in a bound.
 inline constexpr double kUp = 1.0 + 0x1p-40;
 
 /// The bounds that hold throughout the piece for all points of two features.
@@ -54,20 +54,20 @@ class GapBounds {
                 kUp};
   }
 
-  double size;            ///< [m]  That roundings are relative to.
+  double size;            ///< [m]  Roundings are relative to it.
   double position_error;  ///< [m]
   double slip;            ///< [m per step]  Error of a velocity.
-  double unsteadiness;    ///< [m per step^2]  What errors of positions add to an acceleration.
+  double unsteadiness;    ///< [m per step^2]  Addition of errors of positions to an acceleration.
 
  private:
   double acceleration_A_;
   double acceleration_B_;
 };
 
-/// 1 / x, and 0 where x = 0.
+/// The reciprocal 1 / x, and 0 where x = 0.
 inline double inverse(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
-/// The greatest length.
+/// The greatest length of the vectors.
 template <class... Vectors>
 double longest(const Vectors&... v) {
   return std::sqrt(std::max({v.squaredNorm()...}));

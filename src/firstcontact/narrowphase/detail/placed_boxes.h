@@ -1,6 +1,7 @@
 /// @file
-/// The boxes of two nodes, or of two pairs of nodes, placed at an instant. Included once for each
-/// instruction set.
+/// The boxes of two nodes, or of two pairs of nodes, placed at an instant.
+///
+/// Included once for each instruction set.
 
 #if defined(FIRSTCONTACT_QUERY_DETAIL_PLACED_BOXES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIRSTCONTACT_QUERY_DETAIL_PLACED_BOXES_H
@@ -23,42 +24,44 @@ HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// [-]  The time until which extents are followed: to the horizon, and where that is so near that
-/// its reciprocal could overflow, a little beyond it.
+/// [-]  The time until which extents are followed: to the horizon, at least kShortest.
+///
+/// The reciprocal of a nearer horizon could overflow.
 HWY_INLINE float chord_end(const BoxFrame& frame) {
   return frame.horizon > kShortest ? frame.horizon : kShortest;
 }
 
-/// Four boxes of a node at both ends of the step; the same twice of a body that does not deform.
+/// Four boxes of a node at both ends of the step; twice the same node where the body does not
+/// deform.
 struct NodeAtEnds {
   const HierarchyNode& from;
   const HierarchyNode& to;
 };
 
-/// One of A, one of B.
+/// A node of A and a node of B.
 using NodePair = std::array<NodeAtEnds, 2>;
 
 /// Boxes placed in the frame: four of A's node in each pair of nodes, then those of B's.
 template <std::size_t kPlaces>
 struct alignas(64) Placed {
-  alignas(64) float lever[3][kPlaces];  // of the centre, from its body's pivot
-  float centre[3][kPlaces];             // relative to a point beside the pair of nodes
+  alignas(64) float lever[3][kPlaces];  // Vector to the centre from its body's pivot.
+  float centre[3][kPlaces];             // Relative to a point beside the pair of nodes.
   float velocity[3][kPlaces];
   float axes[3][3][kPlaces];  // axis, component
   float extent[3][kPlaces];
   float radius[kPlaces];
-  float distance[kPlaces];  // of any point from the pivot
-  float reach[kPlaces];     // the same times the rate
-  float slack[kPlaces];     // its share of the gap's
-  float doubt[kPlaces];     // half of it, and of how much a triangle's box may be too thick
-  float swept[3][kPlaces];  // rotation vector of its body until the horizon, in its own axes
+  float distance[kPlaces];  // Bound of the distance of any point from the pivot.
+  float reach[kPlaces];     // The distance times the rate.
+  float slack[kPlaces];     // The box's share of the gap's slack.
+  float doubt[kPlaces];     // Half of the slack, and of the excess thickness of a triangle's box.
+  float swept[3][kPlaces];  // Rotation vector of its body until the horizon, in the box's axes.
   // For axes 0 and 1:
-  float own_turn[2][kPlaces];       // w |n x u| of the box's own body
-  float turn_of_other[2][kPlaces];  // and of the other one
-  float swing[2][kPlaces];          // rate of the box's own extent, as it turns
+  float own_turn[2][kPlaces];       // w |n x u| for the box's own body.
+  float turn_of_other[2][kPlaces];  // Likewise for the other body.
+  float swing[2][kPlaces];          // Rate of the box's own extent, as it turns.
   // For bodies that deform:
-  float drift[3][kPlaces];   // velocity of the centre as its body sees it, in the frame's axes
-  float growth[3][kPlaces];  // rate of the extent
+  float drift[3][kPlaces];   // Velocity of the centre as seen from its body, in the frame's axes.
+  float growth[3][kPlaces];  // Rate of the extent.
 };
 
 template <class DF>
@@ -69,7 +72,7 @@ HWY_INLINE V<DF> widen(DF df, V<hn::Rebind<std::uint16_t, DF>> extent) {
                                  hn::Set(d32, HierarchyNode::kExtentOrigin)));
 }
 
-/// R v.
+/// The product R v + origin.
 template <class D>
 HWY_INLINE void rotate(D d, const double* R, const V<D>* v, const V<D>* origin, V<D>* rotated) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -114,7 +117,7 @@ HWY_INLINE void deform(DD d, const BoxFrame& frame, const NodeAtEnds& node, V<DD
 template <bool kDeforms, std::size_t kPairs>
 HWY_INLINE void place_centres(const BoxFrame& frame, const NodePair* pairs,
                               Placed<8 * kPairs>& placed) {
-  constexpr std::size_t kBoxes = 4 * kPairs;  // Of each body.
+  constexpr std::size_t kBoxes = 4 * kPairs;  // Number of boxes of each body.
   const hn::CappedTag<double, kBoxes> d;
   const hn::Rebind<float, decltype(d)> df;
   using VD = V<decltype(d)>;
@@ -158,14 +161,15 @@ HWY_INLINE void place_centres(const BoxFrame& frame, const NodePair* pairs,
   }
 }
 
-/// Everything else, in single precision: of as many boxes at once as the processor has lanes.
+/// Places all but the centres, in single precision: as many boxes at once as the processor has
+/// lanes.
 template <class D, bool kDeforms, std::size_t kPairs>
 struct Placer {
   D d;
   const BoxFrame& frame;
   const NodePair* pairs;
   Placed<8 * kPairs>& placed;
-  static constexpr std::size_t kBoxes = 4 * kPairs;  // Of each body.
+  static constexpr std::size_t kBoxes = 4 * kPairs;  // Number of boxes of each body.
   static constexpr bool kBoth = hn::MaxLanes(D()) == 2 * kBoxes;
 
   /// One value for the lanes of A, another for those of B.
@@ -298,7 +302,7 @@ struct Placer {
     }
   }
 
-  /// How the two thinner axes turn against both bodies.
+  /// Places the rates at which the two thinner axes turn against both bodies.
   HWY_INLINE void place_turning(std::size_t first, const V<D> (*axes)[3], const V<D>* spin,
                                 const V<D>* e) const {
     V<D> other[3];

@@ -11,7 +11,7 @@ using Vector = DoubleDoubleVector3;
 bool is_positive(const DoubleDouble& x) { return x.hi > 0.0; }
 
 DoubleDouble clamped(const DoubleDouble& x) {
-  if (!(x.hi > 0.0)) {  // Takes NaN to 0.
+  if (!(x.hi > 0.0)) {  // NaN becomes 0.
     return 0.0;
   }
   return x.hi > 1.0 || (x.hi == 1.0 && x.lo >= 0.0) ? DoubleDouble(1.0) : x;
@@ -24,12 +24,12 @@ Vector across(const Vector& d, const Vector& along) {
 
 /// The foot of a corner on a face: p[0] + u (p[1] - p[0]) + v (p[2] - p[0]).
 struct Foot {
-  DoubleDouble height;  ///< Over the plane, of any unit.
+  DoubleDouble height;  ///< Height over the plane, in any unit.
   Vector point;
   bool is_inside = false;
 };
 
-/// A face with what its feet need.
+/// A face with the vectors that its feet need.
 class Face {
  public:
   explicit Face(const PreciseCorners& c)
@@ -99,8 +99,9 @@ class Search {
     }
   }
 
-  /// One parameter by what v and r have across u, which keeps its digits for nearly parallel edges;
-  /// then the other is the best for it.
+  /// Finds one parameter from the parts of v and r across u; the other is the best for it.
+  ///
+  /// The parts across u keep their digits for nearly parallel edges.
   void try_edges(int i, int j) {
     const Vector u = edge_of(A_, i);
     const Vector v = edge_of(B_, j);
@@ -114,7 +115,7 @@ class Search {
     const DoubleDouble ww = dot(w, w);
     DoubleDouble t = is_positive(ww) ? clamped(-dot(across(r, u), w) / ww) : DoubleDouble(0.0);
     const DoubleDouble s = is_positive(uu) ? clamped((t * uv + ur) / uu) : DoubleDouble(0.0);
-    // Only then: rounding would move t from an end of its edge.
+    // In other cases rounding would move t from an end of its edge.
     if (is_positive(vv) && (is_end(s) || !is_positive(ww))) {
       t = clamped((s * uv - vr) / vv);
     }
@@ -166,8 +167,10 @@ class Search {
   PreciseClosest best_;
 };
 
-/// The product of two edges. Of nearly parallel ones it is short, and its rounding, of the size of
-/// the edges' own product, turns it; what it then has along them is taken off again.
+/// The product of two edges.
+///
+/// For nearly parallel edges it is short. Its rounding, of the size of the edges' own product, then
+/// turns it. So its parts along the edges are removed again.
 Vector across_both(const Vector& u, const Vector& v) {
   return across(across(cross(u, v), u), across(v, u));
 }

@@ -13,27 +13,29 @@ namespace firstcontact::detail {
 
 struct PreciseCorners {
   std::array<DoubleDoubleVector3, 3> p;  ///< [m]
-  std::size_t count = 3;                 ///< A point has 1, an edge 2.
+  std::size_t count = 3;                 ///< Number of corners; a point has 1, an edge 2.
 };
 
 struct PreciseClosest {
-  DoubleDoubleVector3 d;  ///< [m]  From a point of A to one of B.
-  DoubleDouble square;    ///< [m^2]  Of its length.
+  DoubleDoubleVector3 d;  ///< [m]  Vector from a point of A to one of B.
+  DoubleDouble square;    ///< [m^2]  Square of its length.
   TriangleFeature feature_A;
   TriangleFeature feature_B;
 };
 
-/// Closest points as triangle_distance() finds them: nine pairs of edges, six corners over a face,
-/// edges through a face. They always lie on the features, so that |d| bounds the distance from
-/// above but for the rounding of differences.
+/// The closest points as triangle_distance() finds them: nine pairs of edges, six corners over a
+/// face, edges through a face.
+///
+/// The points always lie on the features. So |d| bounds the distance from above, up to the rounding
+/// of differences.
 [[nodiscard]] PreciseClosest precise_closest(const PreciseCorners& A, const PreciseCorners& B);
 
-/// As separating_direction(): the one that the closest features define, of any length.
+/// The direction that the closest features define, of any length, as separating_direction() has it.
 [[nodiscard]] DoubleDoubleVector3 precise_direction(const PreciseCorners& A,
                                                     const PreciseCorners& B,
                                                     const PreciseClosest& closest);
 
-/// The way along an edge.
+/// The vector along an edge.
 inline DoubleDoubleVector3 edge_of(const PreciseCorners& c, int from) {
   const auto i = static_cast<std::size_t>(from);
   return c.p[(i + 1) % c.count] - c.p[i];

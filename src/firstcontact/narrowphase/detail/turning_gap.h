@@ -12,26 +12,28 @@
 
 namespace firstcontact::detail {
 
-/// Positions and velocities are products and sums of a few rounded numbers: within 2^-48 of what
-/// enters them.
+/// [-]  Positions and velocities are products and sums of a few rounded numbers: within this of the
+/// sizes of these.
 inline constexpr double kGapRounding = 0x1p-48;
 
-/// The corners of one feature, and what bounds their motion.
+/// The corners of one feature, and bounds of their motion.
 struct MovingCorners {
   Triangle position;
   Triangle velocity;
-  std::size_t count = 3;  ///< Of corners that differ; a vertex or an edge has fewer.
+  std::size_t count = 3;  ///< Number of corners that differ; a vertex or an edge has fewer.
   double slip = 0.0;      ///< [m per step]  Error of a velocity.
-  double bend = 0.0;  ///< [m per step^2]  Acceleration in any direction, beside that of the turn.
+  double bend = 0.0;  ///< [m per step^2]  Acceleration in any direction, besides that of the turn.
 
   // The turn of a body; else all zero.
   double rate = 0.0;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  double reach = 0.0;  ///< [m]  Of any corner from the pivot, to the end of the step.
-  double speed = 0.0;  ///< [m per step]  Of any corner as its body sees it.
+  double reach = 0.0;  ///< [m]  Bound of the distance of any corner from the pivot, to the end of
+                       ///< the step.
+  double speed = 0.0;  ///< [m per step]  Bound of the speed of any corner as seen from its body.
 
-  /// Bounds the acceleration of any corner along n(tau), which has turned by `turned`: w |n x u|
-  /// (w |rho| + 2 |d|) and the bend, errors of the axis included.
+  /// Bounds the acceleration of any corner along n(tau), which has turned by `turned`.
+  ///
+  /// The bound is w |n x u| (w |rho| + 2 |d|) and the bend, errors of the axis included.
   [[nodiscard]] double acceleration(const Eigen::Vector3d& n, double turned) const {
     constexpr double kUp = 1.0 + 0x1p-40;
     const double across = n.cross(axis).norm() + turned + kGapRounding;
@@ -41,8 +43,8 @@ struct MovingCorners {
 
 /// The time for which the features stay farther apart than `threshold` along n(tau) = n + tau n'.
 ///
-/// It is by the better of two rates n': zero, and the one that keeps n across the edges of the
-/// closest features. advance_deforming() has the derivation.
+/// It is the longer of two times: with n' zero, and with the n' that keeps n across the edges of
+/// the closest features. advance_deforming() has the derivation.
 ///
 /// @param threshold  [m]  the error of positions included
 /// @param n          [-]  unit up to rounding, from A towards B

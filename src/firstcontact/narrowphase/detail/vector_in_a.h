@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// How far both bodies have turned.
+/// The angles by which both bodies have turned.
 struct Turns {
   Turns(const ElementaryMotion& motion, double t) : tau(t - motion.t_begin) {
     const std::array<SineCosine, 2> turns =
@@ -22,7 +22,7 @@ struct Turns {
     B = turns[1];
   }
 
-  /// To A's axes: the turn about z, undone.
+  /// The vector in A's axes: the turn about z is undone.
   [[nodiscard]] Eigen::Vector3d back(const Eigen::Vector3d& v) const {
     return {A.cosine * v.x() + A.sine * v.y(), A.cosine * v.y() - A.sine * v.x(), v.z()};
   }
@@ -41,8 +41,8 @@ struct VectorInA {
   Eigen::Vector3d sine;
 
   struct State {
-    Eigen::Vector3d value;  ///< In A's axes.
-    Eigen::Vector3d rate;   ///< Of v in the world, in A's axes: A's own turning is not in it.
+    Eigen::Vector3d value;  ///< The vector in A's axes.
+    Eigen::Vector3d rate;   ///< Rate of v in the world, in A's axes: A's own turning is not in it.
   };
 
   [[nodiscard]] State at(const Turns& turns, double rate_B) const {
@@ -59,14 +59,18 @@ inline Eigen::Vector3d relative_rate(const VectorInA::State& p, double w) {
   return {p.rate.x() + w * p.value.y(), p.rate.y() - w * p.value.x(), p.rate.z()};
 }
 
-/// @param v  of body B, at the start of the piece
+/// The vector v of body B as a vector in A.
+///
+/// @param v  at the start of the piece
 inline VectorInA seen_vector(const ElementaryMotion& motion, const Eigen::Vector3d& v) {
   const Eigen::Vector3d& u = motion.axis_B;
   const Eigen::Vector3d along = u.dot(v) * u;
   return {along, Eigen::Vector3d::Zero(), v - along, u.cross(v)};
 }
 
-/// @param lever  of a point of B, at the start of the piece
+/// A point of body B as a vector in A, from A's pivot.
+///
+/// @param lever  position of the point from B's pivot at the start of the piece
 inline VectorInA seen_point(const ElementaryMotion& motion, const Eigen::Vector3d& lever) {
   VectorInA seen = seen_vector(motion, lever);
   seen.constant += motion.offset;
