@@ -10,8 +10,10 @@
 
 namespace firstcontact {
 
-/// Calls use(k) once for each k below count, in any order, with the floating-point environment that
-/// queries need. Returns when all have returned; an exception of one ends the rest.
+/// Calls use(k) once for each k below count, in any order, on several threads.
+///
+/// Calls have the floating-point environment that queries need. The function returns when all calls
+/// have returned; an exception of one ends the rest.
 ///
 /// @param threads  at most; 0 for one on each core
 FIRSTCONTACT_API void parallel_for(int threads, std::size_t count,

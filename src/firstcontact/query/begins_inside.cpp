@@ -29,12 +29,12 @@ WorldPoint point_of(const ShapeAtStart& placed, std::size_t index) {
   return {placed.X_WS.position + R_WS * p_SP, placed.X_WS.position.norm() + p_SP.norm(), index};
 }
 
-/// Whether a point lies in a surface, and is proven to.
+/// Whether a point is proven to lie in a surface.
 bool is_inside(const WorldPoint& point, const ShapeAtStart& around) {
   const Hierarchy& hierarchy = around.shape->hierarchy();
   const Vector3d p_SP =
       around.X_WS.rotation.normalized().conjugate() * Vector3d(point.p_WP - around.X_WS.position);
-  // Each of two turns and three sums is off by less than 2^-48 of what it adds up.
+  // Each of two turns and three sums errs by less than 2^-48 of its terms.
   const double size =
       point.size + around.X_WS.position.norm() + hierarchy.centre.norm() + hierarchy.radius;
   return detail::winds_around(hierarchy, p_SP - hierarchy.centre, 0x1p-45 * size) ==

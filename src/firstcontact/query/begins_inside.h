@@ -27,15 +27,16 @@ struct BeginsInside {
   friend bool operator==(const BeginsInside&, const BeginsInside&) = default;
 };
 
-/// Finds shapes that begin inside of meshes that are surfaces (Filling::surface): were these meshes
-/// solids, the two would be in contact from the start.
+/// Finds shapes that begin inside of meshes that are surfaces (Filling::surface).
 ///
-/// One point of each shape is looked at, so a shape of several components may be missed. An answer
-/// is certified: the surface winds around the point other than zero times. Whether the surface is
-/// closed is not looked at: see why_not_solid(). Only points within a surface's bounds cost more
-/// than the look for them, which takes O(n log n).
+/// Were these meshes solids, the two would be in contact from the start. One point of each shape is
+/// tested, so a shape of several components may be missed. An answer is certified: the surface
+/// winds around the point other than zero times. Whether the surface is closed is not tested: see
+/// why_not_solid().
 ///
-/// @returns  in the order of `around`, then of `inside`
+/// The search for points within a surface's bounds takes O(n log n). Only such points cost more.
+///
+/// @returns in the order of `around`, then of `inside`
 [[nodiscard]] FIRSTCONTACT_API std::vector<BeginsInside> find_begins_inside(
     std::span<const ShapeAtStart> shapes);
 

@@ -27,12 +27,14 @@ void require_band(double band, double beside) {
   require(beside >= 0.0 && std::isfinite(beside), "beside must be finite and >= 0", beside);
 }
 
-/// How close, and which of many.
+/// The distance that is asked for, and the choice among many pairs.
 struct Asked {
   double band;    // [m]
   double beside;  // [m]
 };
 
+/// Collects the close features of a pair at t.
+///
 /// @param motion  of the centres, entered at t
 void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, const Asked& asked,
              Workspace& workspace, std::vector<Contact>& contacts) {

@@ -15,14 +15,15 @@
 namespace firstcontact {
 namespace {
 
-/// An upper bound by sampling, lowered by local descent; the certificate is first_contact's.
+/// Bounds the least distance from above by sampling and local descent; first_contact() certifies
+/// it.
 class Descent {
  public:
   Descent(const ShapePair& pair, Workspace& workspace, const WorkBudget& budget,
           ClosestApproachResult& best)
       : pair_(pair), workspace_(workspace), budget_(budget), best_(best) {}
 
-  /// Whether to leave the rest to a search, which says why it ends.
+  /// Whether to leave the rest to a search, which reports why it ends.
   [[nodiscard]] bool is_over() const {
     return budget_.stop.stop_requested() ||
            (budget_.deadline && std::chrono::steady_clock::now() >= *budget_.deadline);
@@ -100,7 +101,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
     best.reason = found.reason;
     return found;
   };
-  // Bodies that touch are closest there, for the first time.
+  // Bodies that touch are closest at their first contact.
   if (const FirstContactResult& touch = search(); touch.verdict != Verdict::free) {
     descent.sample(touch.t);
     return best;
@@ -110,8 +111,8 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
     descent.sample(static_cast<double>(i) / kSamples);
   }
   descent.improve(best.t, 1.0 / kSamples, options.tolerance);
-  // Proves that nothing is closer than distance - tolerance, or finds what is: in between, where
-  // what it found led hardly any farther, as from a plateau above a short dip.
+  // Proves that nothing is closer than distance - tolerance, or finds a closer place. After a round
+  // that gained little, as from a plateau above a short dip, the next margin is midway.
   query.tolerance = 0.5 * options.tolerance;
   bool is_slow = false;
   while (best.lower_bound < best.distance - options.tolerance) {
@@ -129,7 +130,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
     const double before = best.distance;
     descent.sample(closer.t);
     descent.improve(closer.t, 0.01, options.tolerance);
-    if (!(best.distance < before)) {  // Rounding hides what the search found.
+    if (!(best.distance < before)) {  // Rounding hides the gain of the search.
       best.reason = UndecidedReason::precision;
       return best;
     }
@@ -143,7 +144,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
                                        const ClosestApproachOptions& options) {
   const auto ask = [&](const MovingShape& first, const MovingShape& second) {
     const FloatEnvironmentGuard guard;
-    // Distances are to be far better than the tolerance.
+    // Distances are to err much less than the tolerance.
     ConstantRatePair motion = detail::motion_of(first, second, 1e-3 * options.tolerance);
     return closest_approach({first.shape, second.shape, motion}, workspace, options);
   };

@@ -33,11 +33,12 @@ struct Contact {
   Feature feature_A;
   Feature feature_B;
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< [m]  Closest point on A's thickened surface.
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Closest point on B's thickened surface.
   /// [-]  Unit, from A to B.
   ///
   /// Where the closest points coincide, it is the face's normal or the normalised product of the
-  /// two edges, and points against the relative motion of B. Null where no feature normal decides.
+  /// two edges. It then points against the relative motion of B. Null where no feature normal
+  /// decides.
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> n_AB_W;
   double distance = 0.0;  ///< [m]  Negative: depth of thickened features.
   /// [m per step]  Velocity of B's point relative to A's along the normal; negative when closing;

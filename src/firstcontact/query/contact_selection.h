@@ -24,9 +24,9 @@ namespace firstcontact {
 struct ContactRank {
   std::array<std::uint64_t, 2> features = {};       ///< A number for the feature of each body.
   double distance = 0.0;                            ///< [m]
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m]  Between the closest points.
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m]  Point between the closest points.
 
-  /// The nearest first; exchanging the bodies changes nothing.
+  /// Orders by distance, the nearest first; exchanging the bodies changes nothing.
   friend bool operator<(const ContactRank& x, const ContactRank& y) {
     const auto key = [](const ContactRank& r) {
       const auto [low, high] = std::minmax(r.features[0], r.features[1]);
@@ -37,10 +37,10 @@ struct ContactRank {
   }
 };
 
-/// Keeps at most so many of the contacts that it is given.
+/// Keeps a limited number of the contacts that it is given.
 ///
-/// Half of them, at most, are the nearest contact of each cube of a grid. The cubes are as small as
-/// this number allows: their edge is the least power of two [m] for which no more of them hold
+/// At most half of the kept contacts are the nearest of each cube of a grid. The cubes are as small
+/// as this number allows. Their edge is the least power of two [m] for which no more of them hold
 /// contacts. All others are the nearest contacts of all. So the choice does not depend on the order
 /// in which contacts come. A contact that comes several times counts once.
 ///
@@ -68,7 +68,7 @@ class ContactSelection {
   /// is room.
   [[nodiscard]] double reach() const { return reach_; }
 
-  /// Drops what is not among the nearest by now, so that reach() is the least.
+  /// Drops contacts that are not among the nearest so far, so that reach() is the least.
   void forget_far() {
     keep_once(nearest_);
     if (nearest_.size() > most_) {
@@ -166,7 +166,7 @@ class ContactSelection {
 
   std::size_t most_;
   std::size_t most_cells_;
-  std::size_t most_held_;  // Before the far ones are forgotten.
+  std::size_t most_held_;  // Number of contacts held before the far ones are dropped.
   std::vector<Entry> nearest_;
   double reach_ = std::numeric_limits<double>::infinity();
   std::unordered_map<Cell, Entry, CellHash> cells_;

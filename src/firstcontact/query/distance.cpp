@@ -16,10 +16,10 @@ namespace firstcontact {
 
 namespace {
 
-/// [m]  A lower bound of the distance of what lies within the triangles, without radii.
+/// [m]  A lower bound of the distance of the sets within the triangles, without radii.
 ///
-/// The search for the nearest points of convex sets finds points, and proves nothing of others. The
-/// triangles around a curved set enclose it.
+/// The search for the nearest points of convex sets finds points, and proves nothing about others.
+/// The triangles around a curved set enclose it.
 double distance_of_triangles(const Shape& A, const Shape& B, const PairMotion& motion,
                              const RelativeState& state, Workspace& workspace, WorkCount& work) {
   const Shape around_A = A.as_triangles();

@@ -35,18 +35,19 @@ void require_range(bool holds, const char* option, const char* range, double val
   }
 }
 
-/// Eight times the error of a gap near contact: below it doubles cannot tell distances apart.
+/// Eight times the error of a gap near contact; doubles cannot distinguish smaller distances.
 double resolvable_distance(const MovingPair& pair, RelativeState state, double margin) {
   state.p_AB = Eigen::Vector3d(pair.A().radius + pair.B().radius + margin, 0.0, 0.0);
   return 8.0 * pair.gap_error(state);
 }
 
-/// Far above the motion between neighbouring times, which ends a search of very fast bodies.
+/// [m]  More than the motion between neighbouring times, which ends a search of very fast bodies.
 double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_bound(); }
 
-/// Searches a part of a piece in windows of time. Bodies that stay close for long are opened to
-/// their triangles and never closed again; a new search from the root costs less than to drag these
-/// along. Most pieces are one window.
+/// Searches a part of a piece in windows of time; most pieces are one window.
+///
+/// Bodies that stay close for long are opened to their triangles and never closed again. A new
+/// search from the root costs less than keeping these triangles.
 detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& part,
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
@@ -54,7 +55,7 @@ detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& par
     return detail::search_convex_pair(pair, part.begin, part.end, limits, work);
   }
   constexpr std::uint64_t kPatience = 1u << 17;
-  // Far above the distance of neighbouring times; ties are not told apart by shorter windows.
+  // More than the distance of neighbouring times; shorter windows do not separate ties.
   constexpr double kLeastWidth = 0x1p-32;
   double begin = part.begin;
   double width = part.end - begin;
@@ -77,10 +78,12 @@ detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& par
   }
 }
 
-/// [1]  Of the distance: the nearest points that are found may be farther by it.
+/// [-]  Part of the distance by which the nearest points that are found may be farther.
 constexpr double kSlack = 0x1p-10;
 
-/// @param start  of the motion that was entered
+/// The gap of two shapes at a state.
+///
+/// @param start  state of the motion that was entered
 detail::StartGap gap_at(const ShapePair& shapes, const RelativeState& start,
                         detail::WorkspaceData& workspace, const FirstContactOptions& options,
                         WorkCount& work) {
@@ -96,28 +99,32 @@ detail::StartGap gap_at(const ShapePair& shapes, const RelativeState& start,
   return {.apart = nearest.distance - radii, .error = error, .stopped = nearest.stopped};
 }
 
-/// Searches a part of a piece; where doubles come no further, because time is too coarse for the
-/// tolerance or triangles are too thin, with a larger one, which `limits` then has.
+/// Searches a part of a piece, with a larger tolerance where doubles come no further.
+///
+/// That is where time is too coarse for the tolerance, or triangles are too thin. `limits` then has
+/// the larger tolerance.
 ///
 /// @param margin  [m]  radii included
 detail::PieceResult search(const MovingPair& pair, const TimeWindow& part, double margin,
                            detail::SearchLimits& limits, detail::WorkspaceData& workspace,
                            WorkCount& work) {
   constexpr double kLarger = 8.0;
-  constexpr double kLargest = 0x1p-34;  // Of the size; beyond, it would be no answer.
+  constexpr double kLargest = 0x1p-34;  // [-]  Relative to the size; a larger tolerance would be no
+                                        // answer.
   const double coarse = resolvable_motion(pair);
   const double largest = std::max(coarse, kLargest * (pair.A().radius + pair.B().radius));
   detail::PieceResult found = search_windows(pair, part, limits, workspace, work);
   while (found.reason == UndecidedReason::precision && limits.tolerance < largest) {
     limits.tolerance = std::min(std::max(coarse, kLarger * limits.tolerance), largest);
-    const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
+    const double above = std::max(0.0, limits.threshold - margin);  // Positive only for a pair that
+                                                                    // is held.
     limits.band = std::max(limits.band, margin + (above + limits.tolerance));
     found = search_windows(pair, part, limits, workspace, work);
   }
   return found;
 }
 
-/// One query: what is asked, and what is at hand for it.
+/// One query, with the data at hand for it.
 struct Query {
   const ShapePair& shapes;
   const TimeWindow& window;
@@ -129,7 +136,7 @@ struct Query {
   double early = 0.0;                       ///< [-]  as SearchLimits::early
 };
 
-/// The pair that decided, alone.
+/// Reports only the pair that decided.
 void report_first(const detail::ContactFrame& frame, const detail::PieceResult& found,
                   FirstContactResult& result) {
   const MovingPair& pair = frame.pair;
@@ -146,7 +153,9 @@ void report_first(const detail::ContactFrame& frame, const detail::PieceResult& 
   result.contact_count = {1, false};
 }
 
-/// @param tolerance  [m]  what the search could resolve
+/// Reports the contacts at the time of a contact.
+///
+/// @param tolerance  [m]  resolution of the search
 void report_contacts(const Query& query, const MovingPair& pair, const detail::PieceResult& found,
                      double tolerance, FirstContactResult& result) {
   const auto& [A, B, motion] = query.shapes;
@@ -166,14 +175,14 @@ void report_contacts(const Query& query, const MovingPair& pair, const detail::P
   result.contact_count =
       collect(frame, band, options.contacts.most, query.workspace, result.contacts);
   if (pair.is_convex() && result.contacts.empty()) {
-    report_first(frame, found, result);  // Just outside, as rounding has it.
+    report_first(frame, found, result);  // The pair is just outside, by rounding.
   }
 }
 
 /// [m]  The tolerance that an answer holds to.
 ///
-/// @param limits   as they were in the end
-/// @param above    [m]  of the threshold, above the margin
+/// @param limits   limits as they were in the end
+/// @param above    [m]  excess of the threshold over the margin
 double tolerance_of(const detail::PieceResult& found, const detail::SearchLimits& limits,
                     double above, double coarse, double asked) {
   const bool is_precise = limits.lines != nullptr && found.reason == UndecidedReason::none &&
@@ -184,7 +193,7 @@ double tolerance_of(const detail::PieceResult& found, const detail::SearchLimits
   return coarse;
 }
 
-/// Searches the piece that was entered; whether that ends the query.
+/// Searches the piece that was entered; returns whether that ends the query.
 bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult& result) {
   const auto& [A, B, motion] = query.shapes;
   const FirstContactOptions& options = query.options;
@@ -205,7 +214,8 @@ bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult&
       .A = pair.is_convex() ? nullptr : &A,
       .B = pair.is_convex() ? nullptr : &B,
       .front = query.front};
-  const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
+  const double above = std::max(0.0, limits.threshold - margin);  // Positive only for a pair that
+                                                                  // is held.
   const double first = limits.tolerance;
   const detail::PieceResult found =
       search(pair, part, margin, limits, query.workspace, result.work);
@@ -251,7 +261,7 @@ void solve(const Query& query, FirstContactResult& result) {
   result.verdict = Verdict::free;
 }
 
-/// A contact at t = 0 of a body that lies in another.
+/// Reports a contact at t = 0 of a body that lies in another.
 void report_contained(const ShapePair& shapes, const RelativeState& state,
                       const detail::Containment& found, const FirstContactOptions& options,
                       FirstContactResult& result) {
@@ -268,7 +278,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
   }
 }
 
-/// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
+/// Tests solids at the start: nothing gets into a solid without crossing its surface.
 void solve_solids(const Query& query, const RelativeState& start, FirstContactResult& result) {
   const auto& [A, B, motion] = query.shapes;
   const detail::Containment found = detail::find_containment(A, B, MovingPair(A, B, motion), start);
@@ -286,8 +296,10 @@ void solve_solids(const Query& query, const RelativeState& start, FirstContactRe
   }
 }
 
+/// Answers a query.
+///
 /// @param lines  null where they are not known
-/// @param held   how near the two may come; null: as the options say
+/// @param held   distance to which the two are held; null: that of the options
 /// @param early  [-]  as SearchLimits::early
 void answer(const ShapePair& pair, const TimeWindow& window, const detail::CornerLines* lines,
             const Hold* held, Workspace& workspace, const FirstContactOptions& options,

@@ -9,8 +9,9 @@
 
 namespace firstcontact {
 
-/// A shape S at rest at a pose, made ready once for questions about many pairs. Refers to the
-/// shape.
+/// A shape S at rest at a pose, prepared once for questions about many pairs.
+///
+/// It refers to the shape.
 class FIRSTCONTACT_API PlacedShape {
  public:
   /// @throws std::invalid_argument as Motion::fixed()

@@ -13,27 +13,31 @@
 
 namespace firstcontact {
 
-/// Two shapes and how they move against each other. The motion's points C are the centres of the
-/// shapes' hierarchies. The motion of a shape that deforms has constant rates.
+/// Two shapes and their relative motion.
+///
+/// The motion's points C are the centres of the shapes' hierarchies. The motion of a shape that
+/// deforms has constant rates.
 struct ShapePair {
   const Shape& A;
   const Shape& B;
   PairMotion& motion;
 };
 
-/// As first_contact() of two moving shapes, in the frame of the motion. Answers for A and B swapped
-/// may differ in the last bits: the caller puts them in an order of his own.
+/// Finds the first contact as for two moving shapes, in the frame of the motion.
+///
+/// Answers for A and B swapped may differ in the last bits: the caller puts them in an order of his
+/// own.
 ///
 /// @param window  before it the shapes are proven free; when free, `t` is its end
 FIRSTCONTACT_API void first_contact(const ShapePair& pair, const TimeWindow& window,
                                     Workspace& workspace, const FirstContactOptions& options,
                                     FirstContactResult& result);
 
-/// As distance() of two moving shapes, in the frame of the motion.
+/// Finds the distance as for two moving shapes, in the frame of the motion.
 [[nodiscard]] FIRSTCONTACT_API DistanceResult distance(const ShapePair& pair, double t,
                                                        Workspace& workspace);
 
-/// As closest_approach() of two moving shapes, in the frame of the motion.
+/// Finds the closest approach as for two moving shapes, in the frame of the motion.
 [[nodiscard]] FIRSTCONTACT_API ClosestApproachResult closest_approach(
     const ShapePair& pair, Workspace& workspace, const ClosestApproachOptions& options = {});
 

@@ -1,5 +1,5 @@
 /// @file
-/// The threads of a many-body query.
+/// The threads of a query over many bodies.
 
 #pragma once
 
@@ -20,7 +20,7 @@ class Workers {
   /// @param threads  at most; 0 for one on each core
   explicit Workers(int threads) : arena_(usable(threads)) {}
 
-  /// Calls use(k) for each k below count, `grain` of them at least by one thread.
+  /// Calls use(k) for each k below count; each thread takes at least `grain` of them.
   template <class Use>
   void for_each(std::size_t count, std::size_t grain, const Use& use) {
     arena_.execute([&] {
@@ -35,7 +35,7 @@ class Workers {
   }
 
  private:
-  /// TBB complains about more than it may have.
+  /// The number of threads, at most what TBB may have; it complains about more.
   static int usable(int asked) {
     const auto most = static_cast<int>(
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));

@@ -12,7 +12,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// Far above what rounding loses in a few operations on positions and velocities.
+/// [-]  More than 2^8 times the rounding of a few operations on positions and velocities.
 constexpr double kRounding = 0x1p-44;
 
 /// A position or a velocity with its error.

@@ -1,5 +1,5 @@
 /// @file
-/// The ball around a body on its path: what the broad phase knows of it.
+/// The ball around a body on its path, for the broad phase.
 
 #pragma once
 
@@ -25,9 +25,11 @@ struct BallPath {
 /// its acceleration is w^2 l, with l its distance from the axis, and h the time between them.
 [[nodiscard]] Eigen::AlignedBox3d swept_box(const BallPath& ball, const TimeWindow& window);
 
-/// [-]  A time before which the two balls are farther apart than the margin; infinite where they
-/// are so on the whole window. At least its begin; takes a few steps of conservative advancement
-/// along the line of centres, then leaves the pair to a search.
+/// [-]  A time before which the two balls are farther apart than the margin; infinite for the whole
+/// window.
+///
+/// It is at least the begin of the window. The function takes a few steps of conservative
+/// advancement along the line of centres, then leaves the pair to a search.
 [[nodiscard]] double apart_until(const BallPath& A, const BallPath& B, double margin,
                                  const TimeWindow& window);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Whether a search has to stop.
+/// The check of a budget during a search.
 
 #pragma once
 
@@ -11,11 +11,12 @@
 
 namespace firstcontact::detail {
 
+/// Watches the budget of a search.
 class BudgetWatch {
  public:
   explicit BudgetWatch(const WorkBudget& budget) : budget_(budget) {}
 
-  /// @param steps  done so far
+  /// @param steps  number of steps done so far
   /// @param bytes  in use
   [[nodiscard]] UndecidedReason spent(std::uint64_t steps, std::size_t bytes) {
     if (steps >= budget_.steps) {
@@ -37,7 +38,7 @@ class BudgetWatch {
     return UndecidedReason::none;
   }
 
-  /// Whether it should be asked soon: the rest of its questions costs nothing.
+  /// Whether spent() is to be called: it may find a limit of steps, of time or the stop token.
   [[nodiscard]] bool may_be_spent(std::uint64_t steps) const {
     return steps >= budget_.steps || budget_.stop.stop_requested() ||
            (budget_.deadline && is_clock_due(steps));

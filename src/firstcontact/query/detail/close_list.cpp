@@ -5,10 +5,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Pairs that are listed as they come, some of them several times: 5 MB.
+/// Number of pairs that are listed as they come, some of them several times: 5 MB.
 constexpr std::size_t kFew = std::size_t{1} << 15;
 
-/// Pairs that are counted: 10 MB, and a tenth of a second to find them.
+/// Number of pairs that are counted: 10 MB, and a tenth of a second to find them.
 constexpr std::size_t kMostCounted = std::size_t{1} << 18;
 
 }  // namespace

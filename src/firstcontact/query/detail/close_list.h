@@ -1,5 +1,5 @@
 /// @file
-/// A list of close pairs of features that does not grow with how many there are.
+/// A list of close pairs of features with bounded memory.
 
 #pragma once
 
@@ -23,26 +23,27 @@ namespace firstcontact::detail {
 /// The rank by which a pair of features is chosen.
 [[nodiscard]] ContactRank rank_of(const ClosePair& pair);
 
-/// Takes pairs as they are found, some of them more than once. As long as there are few, all are
-/// listed. Of many only those that the list may be left with are kept, and their number counted.
-/// Counting very many would take long: it ends, and with it the search for those that are not
-/// among the nearest.
+/// Takes pairs as they are found, some of them more than once.
+///
+/// As long as there are few, all are listed. Of many pairs the list keeps only those that may
+/// remain, and counts all. Counting very many would take long, so it ends. The search for pairs
+/// that are not among the nearest then ends, too.
 class CloseList {
  public:
-  /// @param pairs  where the list is; what it holds is dropped
-  /// @param most   of them that are asked for
+  /// @param pairs  place of the list; its contents are dropped
+  /// @param most   number of pairs that are asked for
   CloseList(std::vector<ClosePair>& pairs, std::size_t most);
 
-  /// Begins anew.
+  /// Drops all pairs.
   void clear();
 
   void add(const ClosePair& pair);
 
-  /// [m]  What is farther need not be added.
+  /// [m]  Pairs that are farther apart need not be added.
   [[nodiscard]] double reach() const { return reach_; }
 
-  /// Ends it: `pairs` holds what is kept. How many pairs of features came; none where all are
-  /// listed.
+  /// Ends the list: `pairs` holds those that are kept. Returns the number of all; none where all
+  /// are listed.
   [[nodiscard]] std::optional<ContactCount> finish();
 
  private:
@@ -55,7 +56,7 @@ class CloseList {
   std::vector<ClosePair>& pairs_;
   std::size_t most_;
   double reach_ = std::numeric_limits<double>::infinity();
-  std::optional<ContactSelection<ClosePair>> selection_;  // Where there are many.
+  std::optional<ContactSelection<ClosePair>> selection_;  // Only where there are many.
   std::unordered_set<std::array<std::uint64_t, 2>, FeaturesHash> counted_;
 };
 

@@ -26,7 +26,8 @@ bool apart_along(const Vector3d& n, const TrianglePair& pair, double reach) {
   return gap > 0.0 && gap * gap > reach * reach * n.squaredNorm();
 }
 
-/// Most pairs of triangles that were opened are, by far more than rounding.
+/// Whether a pair is apart along a direction, as most pairs of opened triangles are, by much more
+/// than rounding.
 bool clearly_apart(const TrianglePair& pair, double reach) {
   constexpr double kClearly = 1.0 + 0x1p-20;
   const Vector3d between =
@@ -36,28 +37,28 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
          apart_along(between, pair, kClearly * reach);
 }
 
-/// Pairs of boxes are opened so often, or triangles looked at, until surfaces may be found to
-/// screw_sliding; and so many pairs of triangles may they leave.
+/// Number of opened pairs of boxes, or of tested triangles, before the search asks for screw
+/// sliding; and the most pairs of triangles that this may leave.
 constexpr std::size_t kManyOpened = 1000;
 constexpr std::size_t kMostClose = 100'000;
 
 /// More pairs of triangles than these are very many.
 constexpr std::size_t kVeryMany = 1000;
 
-/// Which features of each of two triangles are asked.
+/// The features of each of two triangles that are asked for.
 struct AskedFeatures {
   unsigned of_A = 0x3f;
   unsigned of_B = 0x3f;
 };
 
-/// How close features have to be.
+/// The greatest distance of features.
 struct CloseBand {
   double band = 0.0;   ///< [m]
-  double error = 0.0;  ///< [m]  No less than positions err.
+  double error = 0.0;  ///< [m]  Bound of the error of positions.
 
   [[nodiscard]] double reach() const { return band + error; }
 
-  /// The same where what is farther is not needed.
+  /// The band where pairs that are farther than `needed` may be left out.
   [[nodiscard]] CloseBand within(double needed) const { return {std::min(band, needed), error}; }
 };
 
@@ -75,9 +76,10 @@ void for_each_close(const ContactFrame& frame, const TrianglePair& triangles, co
   }
 }
 
-/// Most pairs of boxes of surfaces that slide on a screw are near each other, as boxes of curved
-/// patches are thicker than the gap. Begins the list anew. False where they do not slide on a
-/// screw.
+/// Lists the close pairs of surfaces that slide on a screw. Begins the list anew.
+///
+/// Most pairs of boxes of such surfaces are near each other, as boxes of curved patches are thicker
+/// than the gap. It returns false where the surfaces do not slide on a screw.
 bool find_close_by_screw_sliding(const ContactFrame& frame, const RelativeState& state,
                                  const CloseBand& band, WorkspaceData& workspace, CloseList& list) {
   const MovingPair& pair = frame.pair;
@@ -95,7 +97,7 @@ bool find_close_by_screw_sliding(const ContactFrame& frame, const RelativeState&
   const auto own_B = frame.B.own_features();
   list.clear();
   for (const IndexPair& at : left) {
-    // A feature counts once where all pairs of triangles are looked at.
+    // A feature counts once where all pairs of triangles are tested.
     const AskedFeatures asked =
         are_chosen ? AskedFeatures{} : AskedFeatures{own_A[at.a], own_B[at.b]};
     if (asked.of_A != 0 || asked.of_B != 0) {

@@ -13,24 +13,25 @@
 
 namespace firstcontact::detail {
 
-/// The feature of a whole mesh that is one of a triangle in the hierarchy's order.
+/// The feature of a whole mesh for a feature of a triangle in the hierarchy's order.
 [[nodiscard]] Feature global_feature(const Shape& shape, std::uint32_t triangle,
                                      const TriangleFeature& local);
 
-/// With the features of the whole meshes.
+/// The close pair of two triangles, with the features of the whole meshes.
 [[nodiscard]] ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B, const ClosestFeatures& closest);
 
-/// Lists the pairs of features within `band` [m] (radii included) in workspace.close_pairs, some of
-/// them more than once. Where there are very many, only some, which ContactSelection chooses; then
-/// returns how many there are.
+/// Lists the pairs of features within `band` [m] (radii included) in workspace.close_pairs.
+///
+/// Some of them are listed more than once. Of very many, only those that ContactSelection chooses
+/// are listed. Then the function returns how many there are.
 ///
 /// @param state  at the instant
-/// @param most   >= 1, that are asked for
+/// @param most   >= 1, the number that is asked for
 std::optional<ContactCount> find_close(const ContactFrame& frame, const RelativeState& state,
                                        double band, std::size_t most, WorkspaceData& workspace);
 
-/// Lists all of the pairs of triangles that the last search opened.
+/// Lists the close features of all pairs of triangles that the last search opened.
 void find_close_among_opened(const ContactFrame& frame, const RelativeState& state, double band,
                              WorkspaceData& workspace);
 

@@ -19,24 +19,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [groups]  Where a new front opens so many, surfaces that slide on a screw are found by that.
+/// [groups]  Where a new front opens this many, screw sliding finds the pairs of screw surfaces.
 constexpr std::uint64_t kManyOpened = 10'000;
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 /// [pairs of triangles]  More than these are very many.
 constexpr std::size_t kVeryMany = 1000;
 
-/// An instant, and what is asked of it.
+/// An instant, and the distance that is asked for.
 struct Instant {
   const MovingPair& pair;
   const RelativeState& state;
-  double reach;  // [m]  Of features, the error of gaps included.
+  double reach;  // [m]  Reach for features, the error of gaps included.
   BoxesAtInstant boxes;
 
   Instant(const ContactFrame& frame, const RelativeState& at, double band)
       : pair(frame.pair), state(at), reach(band + frame.pair.gap_error(at)), boxes(pair, at) {}
 };
 
-/// Opens what is near, group after group.
+/// Opens the near boxes, group after group.
 class FrontOpener {
  public:
   FrontOpener(const Instant& instant, BoxFront& front, std::vector<FrontTriangles>& triangles)
@@ -47,12 +47,12 @@ class FrontOpener {
     triangles_.clear();
   }
 
-  /// [m]  By how much the distance of triangles may have fallen since the front began.
+  /// [m]  The most by which the distance of triangles may have fallen since the front began.
   [[nodiscard]] double moved(const FrontTriangles& at) const {
     return motion_.of(front_.ball(at.group));
   }
 
-  /// @returns  the groups that were bounded; above `most` if that ended it
+  /// @returns the number of groups that were bounded; above `most` if that ended the search
   std::uint64_t open(std::uint64_t most) {
     std::uint64_t opened = 0;
     std::size_t k = next_due(0);
@@ -124,7 +124,7 @@ class FrontOpener {
   std::vector<FrontTriangles>& triangles_;
 };
 
-/// [m]  By which two triangles are apart along a direction of any length; negative if they are not.
+/// [m]  The gap of two triangles along a direction of any length; negative if they are not apart.
 double gap_along(const Vector3d& n, const TrianglePair& pair) {
   const Vector3d a(n.dot(pair.A[0]), n.dot(pair.A[1]), n.dot(pair.A[2]));
   const Vector3d b(n.dot(pair.B[0]), n.dot(pair.B[1]), n.dot(pair.B[2]));
@@ -135,7 +135,7 @@ double gap_along(const Vector3d& n, const TrianglePair& pair) {
              : -1.0;
 }
 
-/// [m]  The same along the normals of both and the line of their centres.
+/// [m]  The greatest gap along the normals of both and the line of their centres.
 double gap_by_planes(const TrianglePair& pair) {
   const auto normal = [](const Triangle& T) -> Vector3d {
     return (T[1] - T[0]).cross(T[2] - T[0]);
@@ -146,20 +146,21 @@ double gap_by_planes(const TrianglePair& pair) {
       {gap_along(normal(pair.A), pair), gap_along(normal(pair.B), pair), gap_along(between, pair)});
 }
 
-/// Two triangles: a bound of their distance from below, and their closest points if they are near.
+/// Two triangles: a lower bound of their distance, and their closest points if they are near.
 struct Bounded {
   double gap;  // [m]
   std::optional<ClosestFeatures> closest;
 };
 
-/// The planes of two triangles are enough where they part them.
+/// Bounds the distance by the planes of the triangles where these separate them, else by closest
+/// points.
 Bounded bounded(const Instant& instant, const FrontTriangles& at) {
   const TrianglePair placed = instant.pair.place(instant.state, at.a, at.b);
   const double by_planes = gap_by_planes(placed);
   if (by_planes > instant.reach) {
     return {by_planes, std::nullopt};
   }
-  // The distance is a bound from above, the gap along its direction one from below.
+  // The distance is an upper bound, the gap along its direction a lower bound.
   const ClosestFeatures closest = triangle_distance(placed.A, placed.B);
   const double gap = std::max(by_planes, gap_along(closest.p_B - closest.p_A, placed));
   return {gap, closest.distance <= instant.reach ? std::optional(closest) : std::nullopt};

@@ -9,12 +9,12 @@
 
 namespace firstcontact::detail {
 
-/// Lists all pairs of features within `band` [m] in workspace.close_pairs, as find_close() does,
-/// some of them more than once.
+/// Lists all pairs of features within `band` [m] in workspace.close_pairs, as find_close() does.
 ///
-/// Begins at the front, and refines it. Where that is empty, or a new one is due, the front begins
-/// at this instant. False where surfaces that slide on a screw make that long: then nothing is
-/// listed, and the front is given up for a while.
+/// Some of them are listed more than once. The search begins at the front, and refines it. Where
+/// that is empty, or a new one is due, the front begins at this instant. For surfaces that slide on
+/// a screw that may be long. Then the function returns false, lists nothing, and gives the front up
+/// for a while.
 ///
 /// @param state  at the instant, of rigid bodies
 /// @param band   [m]  radii included

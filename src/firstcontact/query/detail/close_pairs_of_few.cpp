@@ -25,7 +25,7 @@ constexpr std::size_t kMost = FeatureTable::kMost;
 static_assert(FeatureLanes::kCapacity >= kMost &&
               FaceBatch::kCapacity >= FeatureTable::kMostTriangles);
 
-/// Which of the six sides of a box a point is beyond: bits.
+/// The sides of a box, as six bits, that a point is beyond.
 unsigned sides_beyond(const Vector3d& p, const AlignedBox3d& box) {
   unsigned sides = 0;
   for (int k = 0; k < 3; ++k) {
@@ -35,8 +35,8 @@ unsigned sides_beyond(const Vector3d& p, const AlignedBox3d& box) {
   return sides;
 }
 
-/// A body at an instant, seen from the centre of A's hierarchy, and which of its features may be
-/// near the other body.
+/// A body at an instant, seen from the centre of A's hierarchy, with its features that may be near
+/// the other body.
 struct PlacedFeatures {
   /// @param place  gives the place of a vertex
   template <class Place>
@@ -83,8 +83,8 @@ struct PlacedFeatures {
   }
 
   CornerBatch corners;
-  EdgeBatch edges;  // Near ones.
-  FaceBatch faces;  // Near ones.
+  EdgeBatch edges;  // Edges that may be near.
+  FaceBatch faces;  // Faces that may be near.
   std::array<const FeatureTable::Edge*, kMost> near_edges;
   const FeatureTable& table;
   const Matrix3d& R_WS;
@@ -93,7 +93,7 @@ struct PlacedFeatures {
   std::array<std::uint8_t, FeatureTable::kMostTriangles> near_faces;
 };
 
-/// What is asked of two bodies.
+/// The question about two bodies.
 struct Question {
   double band;  // [m]
   double size;  // [m]  No coordinate is greater.
@@ -139,7 +139,7 @@ class OverFaces {
     corner_feet(S.corners, T.faces, question.band, question.size, feet_);
   }
 
-  /// In the order in which triangles have them: a corner, then the edge that begins there.
+  /// Adds all in the order in which triangles have them: a corner, then the edge that begins there.
   void add_all() {
     const auto place = [](const auto& feature) { return 3 * feature.triangle + feature.k; };
     auto corner = S_.table.corners.begin();
@@ -199,7 +199,7 @@ class OverFaces {
   bool swapped_;
   const Question& question_;
   NearestFeaturePairs& nearest_;
-  std::array<CornerFeet, FeatureLanes::kCapacity> feet_;  // Of each vertex of S.
+  std::array<CornerFeet, FeatureLanes::kCapacity> feet_;  // For each vertex of S.
 };
 
 }  // namespace
@@ -209,17 +209,17 @@ bool are_few(const MovingPair& pair) {
          FeatureTable::kMostTriangles;
 }
 
-// Derivation: R, as it is stored, is orthogonal but for 44 u and the rotation's error, u = 2^-53,
-// so that coordinates along a body's axes are those of its placed corners but for as much of its
-// radius; rounding adds 12 u of R_A + R_B + |p_AB|, and the axes are not longer than 1 + 22 u. All
-// this is less than 2 gap_error(), which has 128 u. So features that are left out are placed
-// farther apart than the band, and would not be listed.
+// Derivation, u = 2^-53: R, as it is stored, is orthogonal up to 44 u and the rotation's error. So
+// coordinates along a body's axes are those of its placed corners, up to as much of its radius.
+// Rounding adds 12 u of R_A + R_B + |p_AB|, and the axes are not longer than 1 + 22 u. All this is
+// less than 2 gap_error(), which has 128 u. So features that are left out are placed farther apart
+// than the band, and would not be listed.
 void find_close_of_few(const ContactFrame& frame, const RelativeState& state, double band,
                        WorkspaceData& workspace) {
   const MovingPair& pair = frame.pair;
   assert(are_few(pair));
   const double apart = band + 2.0 * pair.gap_error(state);
-  // As MovingPair::place() does, to the last bit.
+  // Places corners as MovingPair::place() does, to the last bit.
   const auto place_A = [&](const Vector3d& own) -> Vector3d { return state.R_WA * own; };
   const auto place_B = [&](const Vector3d& own) -> Vector3d {
     return state.p_AB + state.R_WB * own;

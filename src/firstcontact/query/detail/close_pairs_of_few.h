@@ -1,5 +1,5 @@
 /// @file
-/// The pairs of features that are close, of two meshes of few triangles.
+/// The close pairs of features of two meshes of few triangles.
 
 #pragma once
 
@@ -11,11 +11,11 @@ namespace firstcontact::detail {
 /// Whether both meshes are small enough.
 [[nodiscard]] bool are_few(const MovingPair& pair);
 
-/// Lists every pair of features within `band` [m] (radii included) in workspace.close_pairs, each
-/// once with its nearest points, and their order by features in workspace.close_keys.
+/// Lists every pair of features within `band` [m] (radii included) in workspace.close_pairs.
 ///
-/// Boxes around boxes tell little of so few triangles. Each feature is placed once: edges of one
-/// body meet all those of the other one on vector units, and so do corners and faces.
+/// Each is listed once, with its nearest points. workspace.close_keys has their order by features.
+/// Boxes separate few pairs of so few triangles. So each feature is placed once, and the edges of
+/// one body meet all those of the other on vector units. So do corners and faces.
 ///
 /// @param frame  of meshes that are_few()
 /// @param state  at the instant

@@ -16,20 +16,21 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Opened pairs of triangles; a dozen times what most queries open.
+/// Most opened pairs of triangles that are remembered; a dozen times what most queries open.
 constexpr std::size_t kMostRemembered = 256;
 
-/// After so much work, much more than most searches take, it is asked whether surfaces
-/// screw_sliding.
+/// Work after which the search asks for screw sliding; more than most searches take.
 constexpr std::uint64_t kLongSearch = 1000;
 
-/// [-]  In the first window that begins at a front bodies move by so many thresholds; each further
-/// one is longer by the second factor.
+/// Displacement of the bodies in the first window that begins at a front, in thresholds; and the
+/// factor by which each further window is longer.
 constexpr double kFirstWay = 8.0;
 constexpr double kLongerWindow = 4.0;
 
-/// Takes what is due first, again and again: bounds a group of boxes, opens what one of its lanes
-/// holds, or follows a pair of triangles.
+/// Takes the first entry of the queue again and again.
+///
+/// It bounds a group of boxes, opens the contents of one of its lanes, or follows a pair of
+/// triangles.
 class Search {
  public:
   Search(const MovingPair& pair, double t_begin, double t_end, const SearchLimits& limits,
@@ -92,8 +93,11 @@ class Search {
     groups_.bound(state_.queue.new_group(t, root(state_.pair.A()), root(state_.pair.B()), 0));
   }
 
-  /// Most first contacts are early: a search of a short window finds them among few pairs. Later
-  /// windows are longer. False where the front has too many pairs: it is not asked again.
+  /// Starts the search in a short window at the front.
+  ///
+  /// Most first contacts are early, and a search of a short window finds them among few pairs.
+  /// Later windows are longer. It returns false where the front has too many pairs, and is not
+  /// called again.
   bool start_at_front(double t) {
     const double end = t + front_width_;
     state_.t_end = end < state_.t_last ? end : state_.t_last;
@@ -111,8 +115,10 @@ class Search {
     return true;
   }
 
-  /// Many pairs come into the band together: they are sooner found again, by distance, than opened
-  /// one by one. Goes on without them from what is proven.
+  /// Forgets the opened pairs, and goes on without them from the proven time.
+  ///
+  /// Where many pairs come into the band together, a search by distance finds them sooner than
+  /// opening them one by one.
   void forget_opened() {
     state_.all_remembered = false;
     state_.box_threshold = state_.limits.threshold;
@@ -123,10 +129,10 @@ class Search {
     }
   }
 
-  /// A pair with a front does not slide: it would have none (find_close_by_front()).
+  /// Whether screw sliding is possible: a pair with a front does not slide (find_close_by_front()).
   [[nodiscard]] bool may_slide() const { return state_.limits.front == nullptr; }
 
-  /// Whether nothing is left, in windows after this one neither.
+  /// Whether nothing is left, also in later windows.
   [[nodiscard]] bool is_over() {
     while (state_.queue.empty() && !state_.best.contact && state_.t_end < state_.t_last) {
       const double t = state_.t_end;
@@ -153,7 +159,7 @@ class Search {
     if (state_.best.contact) {
       result.t = state_.proven_free();
       result.t_upper = state_.limits.early > 0.0 ? state_.best.t : result.t;
-      // Where the search began, a pair of boxes that is left is merely one that was not looked at.
+      // Where the search began, a remaining pair of boxes is one that was not looked at.
       result.all_remembered = state_.all_remembered && result.t > state_.t_begin;
     } else {
       result.t = state_.t_end;
@@ -184,7 +190,7 @@ class Search {
     triangles_.follow(entry);
   }
 
-  /// The place of a pair among those opened; none any more where these are too many.
+  /// The place of a pair among those opened; none where these are too many.
   [[nodiscard]] std::uint32_t remember(const TriangleEntry& entry) {
     std::vector<OpenedPair>& opened = state_.workspace.opened_pairs;
     if (state_.all_remembered) {
@@ -198,9 +204,9 @@ class Search {
   GroupBounder groups_;
   ScrewSlidingWindows windows_;
   const BoxFront* front_;
-  double front_width_;  // [-]  Of the next window that begins at the front.
+  double front_width_;  // Width of the next window that begins at the front.
   std::uint64_t steps_before_;
-  std::uint64_t patience_;  // Work until something is done about it.
+  std::uint64_t patience_;  // Work until the search tries another method.
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ Vector3d relative_velocity(const RelativeState& state, const Vector3d& p_A, cons
   return state.pivot_velocity + v_B - v_A;
 }
 
-/// The velocity of a feature's point between those of its corners.
+/// The velocity of a feature's point, interpolated between those of its corners.
 Vector3d rate_at(const Triangle& T, const Triangle& rates, const TriangleFeature& feature,
                  const Vector3d& p) {
   const auto i = static_cast<std::size_t>(feature.index);
@@ -120,7 +120,7 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state, cons
   return contact;
 }
 
-/// Lists the close pairs by their order, the nearest one of each pair of features.
+/// Lists the keys of the close pairs in order, with the nearest pair for each two features.
 void sort_once(WorkspaceData& workspace) {
   std::vector<CloseKey>& keys = workspace.close_keys;
   keys.clear();
@@ -132,7 +132,7 @@ void sort_once(WorkspaceData& workspace) {
   keys.erase(std::unique(keys.begin(), keys.end(), same_features), keys.end());
 }
 
-/// Leaves the order as it is.
+/// Keeps `most` of the keys, in the same order.
 void keep_most(std::size_t most, std::vector<CloseKey>& keys) {
   if (keys.size() <= most) {
     return;
@@ -144,12 +144,12 @@ void keep_most(std::size_t most, std::vector<CloseKey>& keys) {
   std::vector<std::size_t> kept = selection.take();
   std::sort(kept.begin(), kept.end());
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    keys[k] = keys[kept[k]];  // Not before its own place.
+    keys[k] = keys[kept[k]];  // kept[k] is not before k.
   }
   keys.resize(kept.size());
 }
 
-/// Appends the contacts of the pairs that are listed by their keys, each once.
+/// Appends the contacts of the pairs with these keys, each once.
 ContactCount append_contacts(const ContactFrame& frame, const RelativeState& state,
                              std::size_t most, std::vector<CloseKey>& keys,
                              std::vector<Contact>& contacts) {
@@ -187,7 +187,7 @@ ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::si
 ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_t most,
                               WorkspaceData& workspace, std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
-  std::optional<ContactCount> of_more;  // Than are listed.
+  std::optional<ContactCount> of_more;  // The number of all, where more were found than are listed.
   if (frame.pair.is_convex()) {
     find_close_to_convex(frame, state, band, workspace);
     sort_once(workspace);

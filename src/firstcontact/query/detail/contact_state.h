@@ -15,7 +15,7 @@
 
 namespace firstcontact::detail {
 
-/// One contact from the closest features of two triangles (indices in the hierarchies' order).
+/// Makes a contact from the closest features of two triangles (indices in the hierarchies' order).
 [[nodiscard]] Contact make_contact(const ContactFrame& frame, const RelativeState& state,
                                    std::uint32_t triangle_A, std::uint32_t triangle_B,
                                    const ClosestFeatures& closest);
@@ -24,16 +24,16 @@ namespace firstcontact::detail {
 /// number.
 ///
 /// They are those of the pairs of triangles that the last search opened: all of them, or `most`
-/// that ContactSelection chooses.
+/// pairs that ContactSelection chooses.
 ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::size_t most,
                                  WorkspaceData& workspace, std::vector<Contact>& contacts);
 
-/// The same of all triangles.
+/// Appends the feature pairs of all triangles likewise.
 ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_t most,
                               WorkspaceData& workspace, std::vector<Contact>& contacts);
 
-/// The same of two rigid shapes that are asked by their triangles, from their front where it can
-/// be had; all of them.
+/// Appends all feature pairs of two rigid triangle meshes likewise, from their front where there is
+/// one.
 void collect_contacts_by_front(const ContactFrame& frame, double band, BoxFront& front,
                                WorkspaceData& workspace, std::vector<Contact>& contacts);
 

@@ -17,7 +17,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Directions of about unit length without any symmetry; a second one is needed hardly ever.
+/// Directions of about unit length without any symmetry; the second is needed only where the first
+/// is unsure.
 constexpr std::array<std::array<double, 3>, 8> kDirections = {{{0.3141, 0.8723, 0.3742},
                                                                {-0.7291, 0.1823, 0.6597},
                                                                {0.5617, -0.6311, 0.5351},
@@ -46,10 +47,10 @@ OwnBox own_box(const HierarchyNode& node, int slot) {
   return box;
 }
 
-/// How a ray meets a triangle.
+/// The way in which a ray meets a triangle.
 enum class Crossing { none, leaving, entering, unsure };
 
-/// The turns about a point with an error bound, in the solid's frame and unit.
+/// The winding number around a point with an error bound, in the solid's frame and unit.
 class WindingNumber {
  public:
   WindingNumber(const Hierarchy& solid, double t, const Vector3d& point, double error)
@@ -70,7 +71,7 @@ class WindingNumber {
   [[nodiscard]] std::uint32_t crossed() const { return crossed_; }
 
  private:
-  /// False where a crossing is unsure.
+  /// Counts the crossings below a node. False where a crossing is unsure.
   bool visit(std::uint32_t index) {
     HierarchyNode scratch;
     const HierarchyNode& node = solid_.node(index, t_, scratch);
@@ -88,7 +89,7 @@ class WindingNumber {
     return true;
   }
 
-  /// By the axes of the box, and by their products with the ray.
+  /// Whether the ray misses a box, by the axes of the box and by their products with the ray.
   [[nodiscard]] bool misses(const OwnBox& box) const {
     const Vector3d q = box.axes * (p_ - box.centre);
     const Vector3d d = box.axes * direction_;
@@ -130,7 +131,7 @@ class WindingNumber {
     }
     const double scale = 1.0 / solid_.unit;
     std::array<Vector3d, 3> a;
-    std::array<double, 3> reach{};  // Of the exact corners from the exact point.
+    std::array<double, 3> reach{};  // Distances of the exact corners from the exact point, at most.
     for (std::size_t k = 0; k < 3; ++k) {
       a[k] = solid_.vertex(t[k], t_) * scale - p_;
       reach[k] = a[k].norm() * (1.0 + 0x1p-48) + 2.0 * error_;
@@ -291,7 +292,7 @@ class VertexSearch {
   std::uint32_t crossed_ = 0;
 };
 
-/// More components than these are found by their boxes.
+/// Most components that are tested one by one; more are found by their boxes.
 constexpr std::size_t kFewComponents = 64;
 
 Containment search(const Shape& body, VertexSearch search, bool vertex_of_A) {

@@ -1,5 +1,5 @@
 /// @file
-/// Whether one body lies inside another that is solid.
+/// A test whether one body lies inside another that is solid.
 
 #pragma once
 
@@ -25,8 +25,8 @@ enum class Inside { no, yes, unsure };
 /// A vertex of one body that lies in the other, and a face of that which encloses it.
 struct Containment {
   Inside inside = Inside::no;
-  bool vertex_of_A = false;  ///< Of B otherwise.
-  bool is_set = false;       ///< The origin of a convex set in place of a vertex.
+  bool vertex_of_A = false;  ///< Whether the vertex is one of A, else of B.
+  bool is_set = false;       ///< Whether the origin of a convex set takes the place of a vertex.
   std::uint32_t vertex = 0;  ///< In the hierarchy's order.
   std::uint32_t face = 0;    ///< Triangle of the other body, in its hierarchy's order.
 };
@@ -34,22 +34,23 @@ struct Containment {
 /// Looks for a vertex of A in a solid B, or of B in a solid A, at one instant.
 ///
 /// Where the surfaces do not touch, the bodies have a point in common only if a whole component of
-/// one lies in the other: testing one vertex of each is enough. `no` and `yes` are proven;
-/// `unsure` only where a vertex is about as close to the surface as positions are rounded.
+/// one lies in the other. So one vertex of each component is tested. `no` and `yes` are proven.
+/// `unsure` comes only where a vertex is about as close to the surface as positions are rounded.
 ///
-/// Two convex sets need no such look: their closest points tell it. Neither does a body in a convex
-/// set, as a triangle inside is at distance 0. For a convex set in a solid its own origin is
+/// Two convex sets need no such test, as their closest points decide. Neither does a body in a
+/// convex set, as a triangle inside is at distance 0. For a convex set in a solid its own origin is
 /// tested.
 ///
 /// Derivation: take any ray from the point that meets no edge. The winding number of a closed
-/// surface around the point is how often the ray leaves through it, less how often it enters. The
-/// signs of the volumes that decide are certified for all points within gap_error of the rounded
-/// ones; a ray that passes an edge too closely is given up for another.
+/// surface around the point counts how often the ray leaves through it, less how often it enters.
+/// The signs of the volumes that decide are certified for all points within gap_error of the
+/// rounded ones. A ray that passes an edge too closely is given up for another.
 Containment find_containment(const Shape& A, const Shape& B, const MovingPair& pair,
                              const RelativeState& state);
 
-/// The contact of a contained body: its vertex and the face, both points at the vertex, distance 0,
-/// no normal.
+/// Makes the contact of a contained body: its vertex and the face.
+///
+/// Both points are at the vertex, with distance 0 and no normal.
 Contact make_contact(const ContactFrame& frame, const RelativeState& state,
                      const Containment& found);
 

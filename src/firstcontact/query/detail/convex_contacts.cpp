@@ -22,7 +22,7 @@ std::uint32_t sector_of(const Vector3d& p, std::uint32_t n) {
   return std::min(static_cast<std::uint32_t>(std::max(0.0, along)), n - 1);
 }
 
-/// As make_cylinder() numbers them.
+/// The face below a point, with the numbers of make_cylinder().
 std::uint32_t face_of_cylinder(const ConvexCore& core, const Vector3d& p, std::uint32_t n) {
   const std::uint32_t k = sector_of(p, n);
   const double to_side = core.size.x() - std::hypot(p.x(), p.y());
@@ -35,7 +35,7 @@ std::uint32_t face_of_cylinder(const ConvexCore& core, const Vector3d& p, std::u
   return 2 * k + (across >= height ? 0 : 1);
 }
 
-/// As make_cone() numbers them.
+/// The face below a point, with the numbers of make_cone().
 std::uint32_t face_of_cone(const ConvexCore& core, const Vector3d& p, std::uint32_t n) {
   const double height = p.z() + core.size.z();
   const double at_height = core.size.x() * (1.0 - 0.5 * height / core.size.z());
@@ -44,7 +44,8 @@ std::uint32_t face_of_cone(const ConvexCore& core, const Vector3d& p, std::uint3
   return sector_of(p, n) + (height < to_side ? n : 0);
 }
 
-/// As make_ellipsoid() numbers them: of n sectors and n / 2 rings there are n (n - 2) faces.
+/// The face below a point, with the numbers of make_ellipsoid(): n sectors and n / 2 rings give n
+/// (n - 2) faces.
 std::uint32_t face_of_ellipsoid(const ConvexCore& core, const Vector3d& p, std::uint32_t faces) {
   const auto n =
       static_cast<std::uint32_t>(std::lround(1.0 + std::sqrt(1.0 + static_cast<double>(faces))));
@@ -66,7 +67,7 @@ std::uint32_t face_of_ellipsoid(const ConvexCore& core, const Vector3d& p, std::
   return n + (ring - 1) * 2 * n + 2 * k + (across >= along - ring ? 0 : 1);
 }
 
-/// The feature of a mesh nearest to a point, by looking at all triangles.
+/// The feature of a mesh nearest to a point, found among all triangles.
 Feature nearest_feature(const Shape& shape, const Vector3d& p) {
   const Hierarchy& hierarchy = shape.hierarchy();
   const Vector3d from_centre = p - hierarchy.centre;
@@ -87,7 +88,7 @@ Feature nearest_feature(const Shape& shape, const Vector3d& p) {
   return global_feature(shape, nearest, feature);
 }
 
-/// Of a body that is asked as a set, or of a triangle.
+/// The feature of a body that is treated as a set, or of a triangle.
 Feature feature_of(const Shape& shape, const ConvexCore* core, const Eigen::Matrix3d& R,
                    const Vector3d& p_CP_W, std::uint32_t triangle, const TriangleFeature& local) {
   return core == nullptr ? global_feature(shape, triangle, local)

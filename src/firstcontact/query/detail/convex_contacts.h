@@ -1,5 +1,5 @@
 /// @file
-/// The contacts of a pair of which one body is a convex set, or both are.
+/// The contacts of a pair with one or two convex sets.
 
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace firstcontact::detail {
 
-/// The feature of a shape that is asked as a convex set at a point of its surface.
+/// The feature, at a point of its surface, of a shape that is treated as a convex set.
 ///
-/// A curved shape has the face of its triangles that is over the point, found by formulas. Others
+/// A curved shape has the face of its triangles over the point, found by formulas. Other shapes
 /// have the feature nearest to the point.
 ///
 /// @param p_S  [m]  in the body frame

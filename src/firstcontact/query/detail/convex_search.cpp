@@ -8,7 +8,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Steps between two looks at the budget.
+/// Number of steps between two looks at the budget.
 constexpr std::uint64_t kStepsAtOnce = 64;
 
 }  // namespace

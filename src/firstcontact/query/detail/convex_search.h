@@ -1,5 +1,5 @@
 /// @file
-/// First contact of two convex sets as a query asks it: over a part of a piece, within a budget.
+/// First contact of two convex sets over a part of a piece, within a budget.
 
 #pragma once
 

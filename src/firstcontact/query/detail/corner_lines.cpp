@@ -54,7 +54,9 @@ class Lines {
     return path.pivot(t);
   }
 
-  /// What deforms is at to - translation in the body at the end: R (to - translation), where
+  /// The line of a vertex of a body that deforms.
+  ///
+  /// At the end the vertex is at to - translation in the body: R (to - translation), where
   /// `translation` is a vector of the body, too.
   PreciseLinearPoint line(std::uint32_t vertex) {
     const Vector3d& from = body_.shape.mesh().vertices[vertex];

@@ -1,5 +1,5 @@
 /// @file
-/// Cells of contacts that are beside each other and face alike.
+/// Cells of contacts that lie beside each other and face alike.
 
 #pragma once
 
@@ -16,6 +16,8 @@ namespace firstcontact::detail {
 /// A cell of a grid, and the octant of a normal; a key for CellHash.
 using FacingCell = std::array<std::int64_t, 4>;
 
+/// The cell of a place and a normal.
+///
 /// @param n     of any length
 /// @param edge  [m]  of the grid; > 0
 inline FacingCell facing_cell(const Eigen::Vector3d& place, const Eigen::Vector3d& n, double edge) {

@@ -11,13 +11,14 @@
 
 namespace firstcontact::detail {
 
-/// Whether the questions below may be asked of two shapes: they are rigid, are asked by their
-/// triangles, and have so many that a front is worth it.
+/// Whether the questions below may be asked of two shapes.
+///
+/// The shapes are rigid triangle meshes, and have so many triangles that a front saves work.
 [[nodiscard]] bool may_have_front(const Shape& A, const Shape& B);
 
 /// Finds features as close_features() does, in the order of A and B, beginning at their front.
 ///
-/// The front begins here where it is empty, and is refined. It stays empty where other ways are
+/// The front begins here where it is empty, and is refined. It stays empty where another method is
 /// shorter.
 void close_features_by_front(const PlacedShape& A, const PlacedShape& B, double band, double beside,
                              BoxFront& front, Workspace& workspace, std::vector<Contact>& contacts);

@@ -10,16 +10,16 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
-/// expected to be so, too.
+/// Number of pairs of triangles that came due and were then proven free for good. Beyond it the
+/// next ones are expected to be so, too.
 constexpr std::uint64_t kManyFreed = 256;
 
-/// Pairs of boxes that are bounded once more in double precision, until it is known for how many
-/// that is the end; and how many it may cost for one.
+/// Number of pairs of boxes that are bounded again in double precision before the gain is known;
+/// and the most such bounds for one pair that they free.
 constexpr std::uint64_t kFewRepeated = 64;
 constexpr std::uint64_t kRepeatedForOne = 4;
 
-/// Groups of a front with which a search begins, at most. From the roots it takes about as many.
+/// Most groups of a front with which a search begins. From the roots it takes about as many.
 constexpr std::size_t kMostSeeds = 1000;
 
 }  // namespace
@@ -140,7 +140,7 @@ void GroupBounder::take(const Bounding& bounding, BoxBounds& bounds) {
   group.next = prove(group.lanes, bounds.time, below(group.base - t), live);
   group.base = t;
   group.due = GroupQueue::due(group, group.next);
-  // A step that does not take the pair further would repeat for ever: it is opened instead.
+  // A step that does not advance the pair would repeat for ever: the pair is opened instead.
   if (bounding.far_lane != Bounding::kNew &&
       !(GroupQueue::due(group, group.lanes[bounding.far_lane]) > bounding.t)) {
     group.far &= static_cast<std::uint16_t>(~(1u << bounding.far_lane));
@@ -169,7 +169,7 @@ unsigned GroupBounder::free_triangles(const BoxGroup& group, unsigned live, BoxB
     ++search_.work.triangle_pairs;
     ++search_.work.steps;
     const double tau = triangles_.step_of(entry, instant.t());
-    // Where it is 0 perhaps the contact: followed when it is due.
+    // A step of 0 may be the contact: the pair is followed when it is due.
     done |= tau > 0.0 && finishes(k, tau, bounds) ? 1u << k : 0u;
   }
   return done;
@@ -182,7 +182,7 @@ unsigned GroupBounder::in_doubt(const HierarchyNode& a, const HierarchyNode& b,
                                    (lanes_of(a.used(), b.leaves()) & bounds.larger_b);
   const bool corners_help = repeated_ < kFewRepeated + kRepeatedForOne * worth_repeating_;
   const unsigned doubt = (bounds.unsure | (corners_help ? large_triangles : 0u)) & ~triangle_pairs;
-  // The box of a triangle that deforms is thick: its axes are those that suited it at t = 0.
+  // The box of a triangle that deforms is thick, as its axes suit the triangle at t = 0.
   return search_.pair.deforms() ? doubt | triangle_pairs : doubt;
 }
 

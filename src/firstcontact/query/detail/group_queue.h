@@ -16,14 +16,13 @@
 
 namespace firstcontact::detail {
 
-/// A group that the kernel is to bound: a new one, or again one of pairs that were well
-/// separated.
+/// A group that the kernel is to bound: a new one, or again one of well separated pairs.
 struct Bounding {
   static constexpr int kNew = -1;
 
   std::uint32_t index;
-  double t;      // Until then all lanes are proven.
-  int far_lane;  // Because of which it is bound again, or none.
+  double t;      // All lanes are proven until then.
+  int far_lane;  // The lane that causes another bound, or kNew.
 };
 
 /// Groups and pairs of triangles in the order of the times until which they are proven free.
@@ -56,7 +55,7 @@ class GroupQueue {
     queue_.push({entry.key, index, true});
   }
 
-  /// Takes the pair of triangles at the top of the queue away.
+  /// Removes the pair of triangles at the top of the queue, and returns it.
   [[nodiscard]] TriangleEntry take_triangles() {
     const std::uint32_t index = queue_.top().index;
     queue_.pop();
@@ -65,25 +64,25 @@ class GroupQueue {
     return entry;
   }
 
-  /// Queues a group that was bounded, or lets it go.
+  /// Queues a group that was bounded.
   void push_group(std::uint32_t index) { queue_.push(item(index)); }
   void release_group(std::uint32_t index) { groups_.release(index); }
 
-  /// No contact of a lane before this time is proven.
+  /// [-]  The time before which no contact of a lane is possible.
   static double due(const BoxGroup& group, LaneTime lane) {
     return after(group.base, static_cast<double>(lane.time()));
   }
 
   static bool is_far(const BoxGroup& group) { return (group.far >> group.next.lane() & 1u) != 0; }
 
-  /// What the earliest lane of a group holds.
+  /// The boxes in the earliest lane of a group.
   [[nodiscard]] BoxPair next_inside(const BoxGroup& group) const {
     const int lane = group.next.lane();
     return open_lane(pair_, group.node_a, group.node_b, lane, (group.larger_a >> lane & 1u) != 0,
                      (group.larger_b >> lane & 1u) != 0);
   }
 
-  /// Takes the group at the top of the queue away, to be bound again.
+  /// Removes the group at the top of the queue, to be bound again.
   [[nodiscard]] Bounding take_again(std::uint32_t index) {
     queue_.pop();
     return {index, groups_[index].due, groups_[index].next.lane()};
@@ -126,13 +125,14 @@ class GroupQueue {
   }
 
  private:
-  /// The group's place in the queue.
+  /// The queue's item for a group.
   [[nodiscard]] QueueItem item(std::uint32_t index) {
     const BoxGroup& group = groups_[index];
     return {group.due - lag(group.level), index, false};
   }
 
-  /// Each level comes a little earlier than the last, so that ties are searched depth-first.
+  /// [-]  Makes each level come a little earlier than the last, so that ties are searched
+  /// depth-first.
   [[nodiscard]] double lag(std::uint32_t level) const {
     return std::min(tie_window_, static_cast<double>(level) * (tie_window_ / 64.0));
   }

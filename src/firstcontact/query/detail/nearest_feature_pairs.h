@@ -1,5 +1,5 @@
 /// @file
-/// Pairs of features that were found, each once.
+/// Pairs of features with the nearest points that were found, each once.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace firstcontact::detail {
 
-/// Two features by their numbers, and the triangles (of the hierarchies) that they were found of.
+/// Two features by their numbers, and the triangles (of the hierarchies) where they were found.
 struct FoundFeatures {
   std::size_t number_A;
   std::size_t number_B;
@@ -24,17 +24,17 @@ struct FoundFeatures {
   std::size_t triangle_B;
 };
 
-/// The nearest points that were found of each pair of features.
+/// The nearest points that were found for each pair of features.
 ///
-/// Among those as near, they are the ones of the first triangles in the meshes, and among these the
-/// first found.
+/// Among points that are as near, those of the first triangles in the meshes are kept. Among these
+/// the first found are kept.
 class NearestFeaturePairs {
  public:
   NearestFeaturePairs(const ContactFrame& frame, const FeatureTable& A, const FeatureTable& B,
                       std::vector<ClosePair>& pairs)
       : frame_(frame), A_(A), B_(B), pairs_(pairs) {}
 
-  /// @param find  the closest points, asked for where they are kept
+  /// @param find  computes the closest points, where they are kept
   template <class Find>
   void add(const FoundFeatures& found, double distance, const Find& find) {
     std::uint64_t& found_word = found_[found.number_A][found.number_B / 64];
@@ -49,7 +49,7 @@ class NearestFeaturePairs {
     }
   }
 
-  /// By the order of features.
+  /// Lists the pairs in the order of features.
   void list(std::vector<CloseKey>& keys) const {
     for (std::size_t a = 0; a < A_.index.size(); ++a) {
       for (std::size_t word = 0; word < found_[a].size(); ++word) {
@@ -99,7 +99,7 @@ class NearestFeaturePairs {
   std::vector<ClosePair>& pairs_;
   static constexpr std::size_t kNumbers = FeatureTable::kMostNumbers;
   std::array<std::array<std::uint64_t, (kNumbers + 63) / 64>, kNumbers> found_{};
-  std::array<std::uint16_t, kNumbers * kNumbers> places_;  // Of those found, among the pairs.
+  std::array<std::uint16_t, kNumbers * kNumbers> places_;  // Places of the found pairs.
 };
 
 }  // namespace firstcontact::detail

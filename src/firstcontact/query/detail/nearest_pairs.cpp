@@ -12,7 +12,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The nearest pairs of one neighbourhood, by distance, then by where they were in the list.
+/// The nearest pairs of one neighbourhood, by distance, then by their order in the list.
 struct Nearest {
   struct Entry {
     double distance = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ class NearestOfPlaces {
         {closest.distance, pair});
   }
 
-  /// In the order of the pairs.
+  /// The places of the kept pairs, in order.
   [[nodiscard]] std::vector<std::size_t> kept() const {
     std::vector<std::size_t> kept;
     for (const auto& [place, of_place] : nearest_) {
@@ -61,7 +61,7 @@ class NearestOfPlaces {
 template <class Pair>
 void keep(const std::vector<std::size_t>& kept, std::vector<Pair>& pairs) {
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    pairs[k] = pairs[kept[k]];  // Not before its own place.
+    pairs[k] = pairs[kept[k]];  // kept[k] is not before k.
   }
   pairs.resize(kept.size());
 }

@@ -1,5 +1,5 @@
 /// @file
-/// The nearest pairs of each neighbourhood, out of very many pairs of triangles that are close.
+/// The nearest pairs of each neighbourhood, from very many close pairs of triangles.
 
 #pragma once
 
@@ -19,7 +19,7 @@ namespace firstcontact::detail {
 void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,
                   std::vector<IndexPair>& pairs);
 
-/// The same of pairs within the reach whose closest points are known.
+/// Keeps pairs likewise, whose closest points are known to be within the reach.
 void keep_nearest(double edge, std::vector<NearTriangles>& pairs);
 
 }  // namespace firstcontact::detail

@@ -14,10 +14,11 @@ namespace {
 /// Above the errors of gaps in single precision, in units.
 constexpr double kDoubt = 0x1p-14;
 
-/// Best-first over pairs of boxes by a lower bound of their distance. Boxes that are long for their
-/// distance have a weak one along the directions that the kernel knows. The direction between the
-/// closest points found so far separates most of what is farther: where surfaces bulge towards each
-/// other, all of it.
+/// Searches pairs of boxes best-first by a lower bound of their distance.
+///
+/// Boxes that are long for their distance have a weak bound along the directions of the kernel. The
+/// direction between the closest points found so far separates most farther boxes. Where surfaces
+/// bulge towards each other, it separates all of them.
 class NearestSearch {
  public:
   NearestSearch(const MovingPair& pair, const RelativeState& state, WorkspaceData& workspace,
@@ -61,14 +62,15 @@ class NearestSearch {
   }
 
  private:
-  /// [m]  What is as far apart does not matter.
+  /// [m]  The distance from which pairs do not matter.
   [[nodiscard]] double enough() const {
     const double nearest =
         options_.slack > 0.0 ? best_.distance * (1.0 - options_.slack) : best_.distance;
     return std::min(nearest, options_.within);
   }
 
-  /// To two triangles, always into the boxes that seem nearest; ends where these are too far apart.
+  /// Goes down to two triangles, always into the boxes that seem nearest; ends where these are too
+  /// far apart.
   void descend(BoxPair item) {
     while (!item.is_triangle_pair) {
       ++work_.node_groups;
@@ -114,7 +116,7 @@ class NearestSearch {
     if (best_.distance < std::numeric_limits<double>::infinity()) {
       gap = std::max(gap, lane.gap_along(direction_));
     }
-    // Many pairs may be nearly as close: of surfaces that lie flat.
+    // Many pairs may be nearly as close, where surfaces lie flat on each other.
     if (gap < most && most - gap < kDoubt * pair_.unit()) {
       gap = std::max(gap, lane.precise_gap());
     }

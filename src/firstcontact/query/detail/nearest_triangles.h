@@ -18,19 +18,24 @@ struct NearestTriangles {
   ClosestFeatures closest;
   std::uint32_t triangle_A = 0;  ///< In the hierarchies' order.
   std::uint32_t triangle_B = 0;
-  UndecidedReason stopped = UndecidedReason::none;  ///< By the budget; then nothing is claimed.
+  UndecidedReason stopped = UndecidedReason::none;  ///< The limit of the budget that ended the
+                                                    ///< search; then nothing is claimed.
 };
 
 struct NearestTrianglesOptions {
-  double within = std::numeric_limits<double>::infinity();  ///< [m]  Farther ones do not matter.
+  double within = std::numeric_limits<double>::infinity();  ///< [m]  Triangles that are farther
+                                                            ///< apart do not matter.
   /// [-]  The answer may be farther than the nearest by this part of its distance; below 1.
-  /// Surfaces that lie flat have very many pairs that are as near, all but one of which it saves.
+  ///
+  /// Surfaces that lie flat on each other have very many pairs that are as near. With slack only
+  /// one of them is searched.
   double slack = 0.0;
   WorkBudget budget = {};
 };
 
-/// Finds the nearest two triangles, in positions as computed from the state: no two are nearer than
-/// (1 - slack) `distance`, or none is within `within`.
+/// Finds the nearest two triangles, in positions as computed from the state.
+///
+/// No two are nearer than (1 - slack) `distance`, or none is within `within`.
 [[nodiscard]] NearestTriangles nearest_triangles(const MovingPair& pair, const RelativeState& state,
                                                  WorkspaceData& workspace, WorkCount& work,
                                                  const NearestTrianglesOptions& options = {});

@@ -1,5 +1,5 @@
 /// @file
-/// The order in which two bodies are treated, and how they then move against each other.
+/// The order in which two bodies are treated, and their relative motion.
 
 #pragma once
 
@@ -15,7 +15,7 @@ inline bool in_order(const MovingShape& A, const MovingShape& B) {
   return shapes != 0 ? shapes < 0 : A.X_WS.compare(B.X_WS) <= 0;
 }
 
-/// How the centres of two shapes move against each other.
+/// The relative motion of the centres of two shapes.
 inline ConstantRatePair motion_of(const MovingShape& A, const MovingShape& B, double resolution) {
   return {A.X_WS, B.X_WS, A.shape.hierarchy().centre, B.shape.hierarchy().centre, resolution};
 }

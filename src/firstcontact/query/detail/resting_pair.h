@@ -15,7 +15,7 @@ namespace firstcontact::detail {
 /// Refers to the paths.
 class RestingPair final : public PairMotion {
  public:
-  /// @param A,B  that neither turn nor move
+  /// @param A,B  paths that neither turn nor move
   RestingPair(const ConstantRatePath& A, const ConstantRatePath& B) : A_(A), B_(B) {}
 
   double enter(double /*t*/) override { return 1.0; }
@@ -42,7 +42,7 @@ class RestingPair final : public PairMotion {
   }
 
  private:
-  /// Makes -0 0, as adding the way since the begin does.
+  /// Turns -0 into 0, as adding the displacement since the begin does.
   static Eigen::Vector3d without_sign(const Eigen::Vector3d& v) {
     return v + Eigen::Vector3d::Zero();
   }

@@ -14,16 +14,16 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [-]  Of a quantity that is above its rounding by far.
+/// Factor that exceeds 1 by more than 2^30 times the unit of rounding.
 constexpr double kRounding = 1.0 + 0x1p-20;
 
-/// [rad]  Over a window; half a turn would meet itself.
+/// [rad]  Greatest turn over a window; half a turn would meet itself.
 constexpr double kMostTurn = 1.0;
 
-/// [m]  Single precision has squares of such lengths.
+/// [m]  Squares of such lengths are within single precision.
 constexpr double kFarthest = 1e12;
 
-/// Whether the state says all of the motion.
+/// Whether the rates of the state are the whole motion.
 bool has_constant_rates(const RelativeState& state) {
   return state.drift == 0.0 && state.bend == 0.0 && state.bend_A == 0.0 && state.bend_B == 0.0;
 }
@@ -33,7 +33,7 @@ struct SeenBody {
   Matrix3d R_SO;
   Vector3d p_SO;   // [m]  Centre.
   Vector3d p_SQ;   // [m]  Pivot.
-  Vector3d speed;  // [m per step]  Of the pivot.
+  Vector3d speed;  // [m per step]  Velocity of the pivot.
   Vector3d spin;   // [rad per step]
 };
 
@@ -49,14 +49,14 @@ SeenBody seen_from(const ScrewSliding& screw_sliding, const RelativeState& state
           -(R_SW * state.pivot_velocity), R_SW * (state.rate_A * state.axis_A)};
 }
 
-/// Takes back a turn about the screw.
+/// Removes a turn about the screw.
 void unscrew(double turn, double pitch, Matrix3d& R, Vector3d& p) {
   const Matrix3d back = Eigen::AngleAxisd(-turn, Vector3d::UnitZ()).toRotationMatrix();
   R = back * R;
   p = back * p - Vector3d(0.0, 0.0, pitch * turn);
 }
 
-/// [m]  How far points of the body get from the chords of what the screw sees of them.
+/// [m]  Bound of the distance of the body's points, as seen from the screw, from their chords.
 double stray_of(const SeenBody& begin, const SeenBody& end, double pitch, double rate,
                 double duration, double radius) {
   const Vector3d screw(0.0, 0.0, rate);
@@ -135,7 +135,7 @@ std::optional<ScrewSlidingCover::Window> ScrewSlidingCover::window(double t_end,
   height[kHalf] -= static_cast<float>(std::max(-climb, 0.0) * kRounding);
   window.limits.turn[ScrewSliding::kHeight] = window.limits.turn[kHalf + ScrewSliding::kHeight] =
       0.0f;
-  // Points farther than r from the axis are seen apart by 2 asin(d / 2 r), at most 1.05 d / r.
+  // For points farther than r from the axis the angle is at most 2 asin(d / 2 r), below 1.05 d / r.
   const double reach = apart + window.path.stray;
   const double angle = 1.1 * reach / (2.0 * screw_sliding.least_radius - reach) + 0x1p-18;
   window.limits.least[kAngle] = static_cast<float>(-(angle + std::max(turn, 0.0)) * kRounding);

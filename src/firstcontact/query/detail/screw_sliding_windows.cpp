@@ -11,9 +11,8 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Pairs of triangles that screw_sliding may leave to be followed one by one, or else a part of the
-/// time is looked at; how much of it, and how often. Shorter parts of the search's time lead
-/// nowhere.
+/// Most pairs of triangles that screw sliding may leave to be followed one by one; else a shorter
+/// window is tried, by the second factor. Windows that are too short gain nothing.
 constexpr std::size_t kMostLeftByScrewSliding = 4000;
 constexpr double kShorterScrewSliding = 0.25;
 constexpr double kLongerScrewSliding = 2.0;

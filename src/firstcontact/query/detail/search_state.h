@@ -1,5 +1,5 @@
 /// @file
-/// How far a search for the contact of two bodies has got: what its parts share.
+/// The state that the parts of a search for the contact of two bodies share.
 
 #pragma once
 
@@ -37,22 +37,24 @@ struct SearchState {
 
   [[nodiscard]] std::uint64_t steps() const { return work.node_groups + work.steps; }
 
-  /// Nothing after this time is of interest.
+  /// [-]  The time after which nothing is of interest.
   [[nodiscard]] double horizon() const { return best.contact ? best.t : t_end; }
 
-  /// A time that a certificate reaches: dropped where it covers the rest, the end included.
+  /// Whether a certificate covers the rest, the end included.
   [[nodiscard]] bool covered(double t, double tau) const {
-    // Rounded down: half a unit of a late time is a way, too.
+    // Rounded down: at a late time half a unit is a displacement, too.
     return tau > 0.0 &&
            (best.contact ? after(t, tau) > best.t : after(t, tau * (1.0 - 0x1p-50)) >= t_end);
   }
 
-  /// All that is left is proven free before the least priority.
+  /// [-]  The time until which all remaining pairs are proven free: the least priority.
   [[nodiscard]] double proven_free() const {
     const double t = queue.empty() ? t_end : queue.top().priority();
     return std::max(t_begin, best.contact ? std::min(t, best.t) : t);
   }
 
+  /// Takes a contact that was found.
+  ///
   /// @param slack              [m]  by which it is nearer than it has to be
   /// @param precise_tolerance  [m]  as of the result
   void found(const TriangleEntry& entry, double t, double slack, double precise_tolerance = 0.0) {
@@ -73,14 +75,16 @@ struct SearchState {
   WorkspaceData& workspace;
   WorkCount& work;
   double t_begin;
-  double t_end;  ///< Of the window that is searched.
+  double t_end;  ///< End of the window that is searched.
   double t_last;
   double tie_window;
   GroupQueue queue;
   PairInstant instant;
   BudgetWatch watch;
-  /// All pairs of triangles within the band at the contact are to be among those opened: boxes are
-  /// then tested against threshold + tolerance, so that no pair of them that is left holds any.
+  /// Whether all pairs of triangles within the band at the contact must be among those opened.
+  ///
+  /// Boxes are then tested against threshold + tolerance, so that no remaining pair of boxes holds
+  /// any.
   bool all_remembered;
   double box_threshold;
   double stop_window = 0.0;

@@ -32,7 +32,7 @@ Rows in_rows(std::size_t count, double slack,
   return rows;
 }
 
-/// Whether an edge with these offsets across its faces divides a flat one.
+/// Whether an edge with these offsets across its faces divides a flat face.
 template <class Offset>
 bool are_flat(std::span<const Offset> offsets) {
   if (offsets.size() != 2) {

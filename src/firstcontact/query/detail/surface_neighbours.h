@@ -1,5 +1,5 @@
 /// @file
-/// Which features of a mesh lie around an edge or a vertex.
+/// The features of a mesh around an edge or a vertex.
 
 #pragma once
 
@@ -17,13 +17,12 @@ namespace firstcontact::detail {
 
 /// Separates contacts at which a surface bulges towards the other body from those with a nearer
 /// neighbour.
-///
-/// A neighbour is a feature next to that of the contact: a corner that slides over a flat edge
-/// between two triangles touches none but the one below it.
+/// A neighbour is a feature next to that of the contact. A corner that slides over a flat edge
+/// between two triangles touches only the triangle below it.
 class SurfaceNeighbours {
  public:
-  /// @param slack  [m]  >= 0  By so much may a neighbour reach farther: all corners of a face that
-  ///               lies on another one touch, however it is tilted.
+  /// @param slack  [m]  >= 0  Distance by which a neighbour may reach farther. So all corners of a
+  ///               face that lies on another one touch, however it is tilted.
   SurfaceNeighbours(const Shape& shape, double slack);
 
   /// Whether no neighbour of the feature reaches farther along the direction than the feature does.
@@ -36,11 +35,11 @@ class SurfaceNeighbours {
     return feature.type == FeatureType::edge && is_flat_[feature.index];
   }
 
-  /// [m]  How far around an edge or a vertex the surface is surely one flat face; 0: it bends
-  /// there.
+  /// [m]  The distance around an edge or a vertex within which the surface is surely one flat face;
+  /// 0 at a bend.
   [[nodiscard]] double flat_around(const Feature& feature) const;
 
-  /// The index of a feature, but one index for all triangles of a flat face.
+  /// The index of a feature; all triangles of a flat face have one index.
   [[nodiscard]] std::uint32_t surface_index(const Feature& feature) const {
     return feature.type == FeatureType::face ? flat_face_[feature.index] : feature.index;
   }
@@ -55,16 +54,16 @@ class SurfaceNeighbours {
   }
 
  private:
-  /// From a feature to the end of a neighbour.
+  /// The vector from a feature to the end of a neighbour.
   struct Offset {
     Eigen::Vector3d vector;  // [m]
-    double most;             // [m]  It may reach so much farther than the feature.
+    double most;             // [m]  Most by which it may reach farther than the feature.
   };
 
-  /// Offsets from each feature to the ends of its neighbours: of an edge across its faces, of a
+  /// Offsets from each feature to the ends of its neighbours: from an edge across its faces, from a
   /// vertex along its edges.
   struct OffsetRows {
-    std::vector<std::uint32_t> first;  // Of feature k: first[k] to first[k + 1].
+    std::vector<std::uint32_t> first;  // Row of feature k: first[k] to first[k + 1].
     std::vector<Offset> offsets;
 
     [[nodiscard]] std::span<const Offset> of(std::uint32_t feature) const {
@@ -75,9 +74,9 @@ class SurfaceNeighbours {
   void find_flat_vertices(const Shape& shape);
   void find_flat_faces(const Shape& shape);
 
-  std::vector<bool> is_flat_;             // Of each edge.
-  std::vector<bool> is_flat_vertex_;      // Whether all edges of each vertex are.
-  std::vector<std::uint32_t> flat_face_;  // Of each triangle the first one of its flat face.
+  std::vector<bool> is_flat_;             // For each edge.
+  std::vector<bool> is_flat_vertex_;      // For each vertex: whether all of its edges are flat.
+  std::vector<std::uint32_t> flat_face_;  // For each triangle: the first one of its flat face.
   OffsetRows edges_;
   OffsetRows vertices_;
 };

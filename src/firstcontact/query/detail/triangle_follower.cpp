@@ -15,17 +15,17 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Below this ratio of squared lengths the direction between two closest points is worse than the
-/// one that the features define.
+/// Ratio of squared lengths below which the direction that the features define is better than that
+/// between two closest points.
 constexpr double kNearlyCoinciding = 0x1p-40;
 
-/// [-]  A direction whose gap is that part of the distance is as good as the best one.
+/// [-]  A direction whose gap is this part of the distance is as good as the best one.
 constexpr double kNearEnough = 0.75;
 
-/// Steps of one pair of triangles in a row; a dozen times what most take.
+/// Most steps of one pair of triangles in a row; a dozen times what most take.
 constexpr int kPatience = 100;
 
-/// [m^2]  Of the larger triangle, roughly.
+/// [m^2]  Squared size of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
   return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
                   (pair.B[1] - pair.B[0]).squaredNorm() + (pair.B[2] - pair.B[0]).squaredNorm());
@@ -48,7 +48,7 @@ void TriangleFollower::follow(TriangleEntry entry) {
   int steps_left = kPatience;
   do {
     if (search_.best.contact && t >= search_.best.t) {
-      return;  // Nothing of it is left before the contact.
+      return;  // No time is left before the contact.
     }
     ++search_.work.steps;
     instant.move_to(t);
@@ -73,7 +73,7 @@ void TriangleFollower::follow(TriangleEntry entry) {
     }
     const double next = after(t, tau);
     if (!(next > t)) {
-      // Doubles cannot take the pair any further.
+      // Doubles cannot advance the pair any further.
       if (limits.lines != nullptr && decide_precisely(entry, t)) {
         return;
       }
@@ -107,7 +107,7 @@ void TriangleFollower::follow_convex(TriangleEntry entry) {
   bool begins = true;
   do {
     if (search_.best.contact && t >= search_.best.t) {
-      return;  // Nothing of it is left before the contact.
+      return;  // No time is left before the contact.
     }
     ++search_.work.steps;
     instant.move_to(t);
@@ -123,7 +123,7 @@ void TriangleFollower::follow_convex(TriangleEntry entry) {
     double apart = closest.distance + instant.error();
     double tau = convex_step(leaf, closest.n);
     if (apart > limits.threshold + 0.5 * limits.tolerance && !(tau > 0.0)) {
-      // The search ended too early, as it began with unsuitable points.
+      // The search ended early because it began with unsuitable points.
       guess.count = 0;
       wanted.near = 1.0;
       closest = leaf.closest(wanted, guess);
@@ -170,7 +170,7 @@ bool TriangleFollower::comes_soon(TriangleEntry entry, double t, double tau) {
     return false;
   }
   search_.found(entry, later, 0.0);
-  entry.key = t;  // Until then it is proven.
+  entry.key = t;  // The pair is proven free until then.
   search_.queue.push(entry);
   return true;
 }

@@ -18,8 +18,10 @@
 
 namespace firstcontact::detail {
 
-/// Pairs of boxes that still may come into contact: box i of node a with box j of node b in lane
-/// 4 i + j. No contact of a lane before base + its time is proven.
+/// Pairs of boxes that may still come into contact: box i of node a with box j of node b in lane 4
+/// i + j.
+///
+/// No contact of a lane before base + its time is proven.
 struct BoxGroup {
   LaneTimes lanes;
   double base;
@@ -27,11 +29,12 @@ struct BoxGroup {
   std::uint32_t node_a;
   std::uint32_t node_b;
   LaneTime next;       ///< The lane with the least time; kNone where all are done with.
-  std::uint16_t live;  ///< Lanes that are not done with.
-  std::uint16_t far;   ///< Were well apart at their last bound: bound again before opening.
+  std::uint16_t live;  ///< Bits of lanes that are not done with.
+  std::uint16_t far;   ///< Bits of lanes that were well apart at their last bound: they are bound
+                       ///< again before opening.
   std::uint16_t larger_a;
   std::uint16_t larger_b;
-  std::uint16_t level;  ///< How often boxes were opened to get here.
+  std::uint16_t level;  ///< Number of openings of boxes down to this group.
 };
 
 /// A pair of triangles that still may come into contact, as indices in the hierarchies' order.
@@ -69,7 +72,7 @@ struct ScrewSlidingNodes {
   std::uint32_t other = 0;
 };
 
-/// A pair of triangles that a search opened, and how far apart it last saw them.
+/// A pair of triangles that a search opened, and its last distance.
 struct OpenedPair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -106,7 +109,7 @@ struct CloseKey {
 class QueueItem {
  public:
   QueueItem() = default;
-  /// @param priority  [-]  at most the least key of what the item stands for
+  /// @param priority  [-]  at most the least key of the entry
   QueueItem(double priority, std::uint32_t stands_for, bool a_triangle_pair)
       : index(stands_for),
         is_triangle_pair(a_triangle_pair),
@@ -120,8 +123,9 @@ class QueueItem {
   friend bool operator<(const QueueItem& x, const QueueItem& y) { return x.order_ < y.order_; }
 
  private:
-  /// The code of a double as an integer in the same order, and back. Integers are compared without
-  /// branches, which in a queue cannot be foreseen.
+  /// The code of a double as an integer in the same order, and back.
+  ///
+  /// Integers are compared without branches, which cannot be foreseen in a queue.
   static std::int64_t in_order(std::int64_t code) {
     return code ^ (code < 0 ? std::numeric_limits<std::int64_t>::max() : 0);
   }
@@ -169,7 +173,7 @@ class SearchQueue {
  private:
   static constexpr std::size_t kWidth = 4;
 
-  /// The entry itself where it has none.
+  /// The least child of an entry; the entry itself where it has none.
   [[nodiscard]] std::size_t least_child(std::size_t entry) const {
     const std::size_t first = kWidth * entry + 1;
     if (first + kWidth <= items_.size()) {
@@ -220,12 +224,12 @@ struct WorkspaceData {
   SearchQueue queue;
   Pool<BoxGroup> groups;
   Pool<TriangleEntry> triangle_pairs;
-  std::vector<OpenedPair> opened_pairs;  ///< By the last search.
+  std::vector<OpenedPair> opened_pairs;  ///< Pairs that the last search opened.
   std::vector<ClosePair> close_pairs;
   std::vector<CloseKey> close_keys;
   std::vector<BoxPair> stack;
   std::vector<std::pair<double, BoxPair>> nearest;
-  ScrewSlidingBounds screw_sliding_bounds;  ///< Of the body that is no carrier.
+  ScrewSlidingBounds screw_sliding_bounds;  ///< Bounds of the body that is no carrier.
   std::vector<ScrewSlidingNodes> screw_sliding_stack;
   std::vector<IndexPair> left_by_screw_sliding;
   std::vector<FrontTriangles> front_triangles;
