@@ -37,7 +37,7 @@ JsonArray meshes_of_bodies(const LoadedScene& loaded, detail::PageMeshes& meshes
   return bodies;
 }
 
-/// Samples or corners of a bound: both have a time and a distance.
+/// Writes samples or corners of a bound: both have a time and a distance.
 template <typename Point>
 JsonValue line_to_json(std::span<const Point> points) {
   JsonArray times;
@@ -52,8 +52,9 @@ JsonValue line_to_json(std::span<const Point> points) {
                               {"distance", {.value = std::move(distances)}}}};
 }
 
-/// No text of the data may end the script that holds it. In JSON this letter stands in strings
-/// only.
+/// Escapes `<`, so that no text of the data ends the script that holds it.
+///
+/// In JSON this letter stands in strings only.
 std::string without_tags(std::string_view json) {
   std::string text;
   text.reserve(json.size());
@@ -67,7 +68,7 @@ std::string without_tags(std::string_view json) {
   return text;
 }
 
-/// What bodies and robots look like.
+/// The looks of bodies and robots.
 JsonObject look_of(const LoadedScene& loaded) {
   detail::PageMeshes meshes;
   JsonObject view{{"bodies", {.value = meshes_of_bodies(loaded, meshes)}}};
@@ -77,7 +78,7 @@ JsonObject look_of(const LoadedScene& loaded) {
     for (const SceneRobot& robot : loaded.scene.robots) {
       colors.push_back(detail::read_urdf_colors(robot.file.urdf));
     }
-    colors.resize(loaded.robots->robot_count());  // A scene may have robots of no file.
+    colors.resize(loaded.robots->robot_count());  // A scene may have robots that come from no file.
     view.push_back(
         {"robots", {.value = detail::robots_of_page(*loaded.robots, colors, meshes, warnings)}});
     view.push_back({"carried", {.value = detail::carried_of_page(*loaded.robots)}});
@@ -98,13 +99,13 @@ std::string fill(std::string_view page_template, std::string_view data) {
   return page;
 }
 
-/// What the page has of a record and of what its bodies look like.
+/// The data of the page: a record, and the looks of its bodies.
 std::string data_of(const PageRecord& record, JsonObject view) {
   return "{" + detail::write_json(record.name) + ":" + without_tags(record.json) +
          ",\"view\":" + without_tags(detail::write_json({.value = std::move(view)})) + "}";
 }
 
-/// What a list shows of a result or an error.
+/// The entry of a list for a result or an error.
 JsonObject summary_of(std::string_view result) {
   const JsonValue root = detail::parse_json(result, "result");
   const auto* object = std::get_if<JsonObject>(&root.value);

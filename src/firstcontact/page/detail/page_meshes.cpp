@@ -16,10 +16,11 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Corners of a mesh with no more vertices than this have two bytes.
+/// Most vertices of a mesh whose corners have two bytes.
 constexpr std::size_t kShortIndices = 65'536;
 
-/// Vertices are relative to the middle, so that single precision suffices far from the origin too.
+/// Writes a mesh with vertices relative to the middle: so single precision suffices far from the
+/// origin, too.
 JsonValue mesh_to_json(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
@@ -43,7 +44,7 @@ JsonValue mesh_to_json(const Mesh& mesh) {
                               {"triangles", {.value = triangles.base64()}}}};
 }
 
-/// Empty where the geometry is of no file.
+/// The key of a geometry's file; empty where the geometry is of no file.
 std::string key_of(const LinkGeometry& geometry) {
   const auto* file = std::get_if<MeshGeometry>(&geometry.source);
   return file == nullptr || file->path.empty()

@@ -16,9 +16,9 @@ namespace firstcontact::detail {
 /// Collects meshes, and numbers them from 0 in the order of adding.
 class PageMeshes {
  public:
-  /// The number of a mesh, the same for the same object.
+  /// Adds a mesh and returns its number, the same for the same object.
   ///
-  /// @param mesh  lives as long as this
+  /// @param mesh  lives as long as this object
   [[nodiscard]] std::size_t add(const Mesh& mesh);
 
   /// Adds the mesh of a geometry of a link and returns its number, the same for the same file and
@@ -29,7 +29,7 @@ class PageMeshes {
   /// @throws as make_shape
   [[nodiscard]] std::size_t add(const LinkGeometry& geometry);
 
-  /// All of them, as the page has them (docs/viewer.md).
+  /// Returns all meshes in the form of the page (docs/viewer.md).
   [[nodiscard]] JsonArray take();
 
  private:
@@ -37,7 +37,7 @@ class PageMeshes {
 
   JsonArray meshes_;
   std::map<const Mesh*, std::size_t> of_objects_;
-  std::map<std::string, std::size_t> of_files_;  // By path and scale.
+  std::map<std::string, std::size_t> of_files_;  // Numbers by path and scale.
 };
 
 }  // namespace firstcontact::detail

@@ -36,7 +36,7 @@ JsonValue to_json(const CoordinateSegment& segment) {
   return {.value = JsonObject{{"until", to_json(segment.t_end)}, {"a", {.value = std::move(a)}}}};
 }
 
-/// The pivot moves on a line, the child's origin turns about it.
+/// Writes a path: the pivot moves on a line, the child's origin turns about it.
 JsonValue to_json(const ConstantRatePath& path) {
   const ConstantRatePath::State begin = path.state(path.t_begin());
   return {.value = JsonObject{{"until", to_json(path.t_end())},
@@ -105,8 +105,9 @@ class RobotPage {
   }
 
  private:
-  /// What a link looks like is written where that is not what it is made of for collisions; else
-  /// its colours stand there.
+  /// Writes a link, with its looks where they differ from its collision geometry.
+  ///
+  /// Where they do not differ, their colours stand with the collision geometry.
   JsonValue write(const Link& link) {
     JsonValue collision{.value = write(link.collision, link.name, {})};
     const JsonArray coloured = write(link.visual, link.name, colors_of(link));
@@ -130,7 +131,7 @@ class RobotPage {
     return geometries;
   }
 
-  /// The color of each visual; empty where the file has others than the model.
+  /// The colour of each visual; empty where the file has other visuals than the model.
   [[nodiscard]] std::vector<Color> colors_of(const Link& link) const {
     const auto found = colors_.find(link.name);
     return found == colors_.end() || found->second.size() != link.visual.size()
@@ -144,7 +145,8 @@ class RobotPage {
     for (std::size_t k = 0; k < geometries.size(); ++k) {
       try {
         array.push_back(write(geometries[k], colors.empty() ? std::nullopt : colors[k]));
-      } catch (const std::exception& error) {  // A file, or a size, that no shape can be made of.
+      } catch (const std::exception& error) {  // No shape can be made of this file, or with this
+                                               // size.
         warnings_.push_back("link " + in_quotes(link) + " is drawn in part: " + error.what());
       }
     }

@@ -16,12 +16,12 @@ namespace firstcontact::detail {
 
 /// The robots with links, joints and the exact pieces of their paths (docs/viewer.md).
 ///
-/// @param colors    of each robot
+/// @param colors    one for each robot
 /// @param warnings  gets a line for each visual geometry that cannot be read and is left out
 [[nodiscard]] JsonArray robots_of_page(const RobotScene& scene, std::span<const UrdfColors> colors,
                                        PageMeshes& meshes, std::vector<std::string>& warnings);
 
-/// How bodies move that are carried for a while.
+/// The motions of bodies that are carried for a while.
 [[nodiscard]] JsonArray carried_of_page(const RobotScene& scene);
 
 }  // namespace firstcontact::detail

@@ -20,7 +20,7 @@ class ColorReader {
     for (const XmlElement* material : xml_.children(root, "material")) {
       define(*material);
     }
-    // A material that a visual defines serves all others by its name, earlier ones too.
+    // A material that a visual defines serves all others by its name, also earlier ones.
     for (const XmlElement* link : xml_.children(root, "link")) {
       for (const XmlElement* visual : xml_.children(*link, "visual")) {
         for (const XmlElement* material : xml_.children(*visual, "material")) {
@@ -47,7 +47,7 @@ class ColorReader {
         if (rgba.size() >= 3) {
           return Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cwiseMax(0.0).cwiseMin(1.0);
         }
-      } catch (const ParseError&) {  // No colour, then.
+      } catch (const ParseError&) {  // The visual then has no colour.
       }
     }
     return std::nullopt;

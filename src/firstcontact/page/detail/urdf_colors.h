@@ -17,11 +17,10 @@ namespace firstcontact::detail {
 /// The colours of each link's visuals, in order, by the link's name: red, green and blue in [0, 1].
 using UrdfColors = std::map<std::string, std::vector<std::optional<Eigen::Vector3d>>>;
 
-/// Parses the colours of a URDF. They decide nothing: a faulty colour is left out, whatever its
-/// fault.
+/// Parses the colours of a URDF; any faulty colour is left out, as colours decide nothing.
 [[nodiscard]] UrdfColors parse_urdf_colors(std::string_view text);
 
-/// Reads the colours as parse_urdf_colors() does; none of a file that cannot be read.
+/// Reads the colours as parse_urdf_colors() does; none for a file that cannot be read.
 [[nodiscard]] UrdfColors read_urdf_colors(const std::filesystem::path& path);
 
 }  // namespace firstcontact::detail

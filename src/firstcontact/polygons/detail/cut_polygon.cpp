@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using Vertices = std::span<const Vector3d>;
 using Corners = std::span<const std::uint32_t>;
 
-/// The range of PlanePoint.
+/// Bounds of the range of PlanePoint.
 constexpr double kLeast = 0x1p-484;
 constexpr double kGreatest = 0x1p480;
 constexpr int kGreatestExponent = 480;
@@ -68,8 +68,9 @@ std::vector<PlanePoint> seen(std::span<const Vector3d> ring, const View& view) {
   return points;
 }
 
-/// The axis to look along at a ring of area 0: the one of its parts' largest area, or for a line
-/// that of its least extent.
+/// The axis along which to look at a ring of area 0.
+///
+/// It is that of the largest area of the ring's parts, or for a line that of its least extent.
 int axis_of_empty_ring(std::span<const Vector3d> ring) {
   constexpr double kLine = 1e-12;
   Eigen::AlignedBox3d bounds;
@@ -115,8 +116,10 @@ bool is_concave(std::span<const PlanePoint> ring) {
   return false;
 }
 
-/// Whether the triangles about the first corner cover the ring's inside, and nothing else: seen
-/// from that corner, the others turn counter-clockwise, by less than a whole turn.
+/// Whether the triangles about the first corner cover exactly the ring's inside.
+///
+/// That is so where the other corners, as seen from the first, turn counter-clockwise by less than
+/// a whole turn.
 bool fan_fits(std::span<const PlanePoint> ring) {
   const PlanePoint& o = ring.front();
   std::size_t first = 1;
@@ -124,7 +127,8 @@ bool fan_fits(std::span<const PlanePoint> ring) {
     ++first;
   }
   bool is_past_half = false;
-  bool is_back = false;  // At the first corner again, which is right only at the end.
+  bool is_back = false;  // Whether the walk is at the first corner again, which is right only at
+                         // the end.
   for (std::size_t k = first; k < ring.size(); ++k) {
     if (ring[k] == o) {
       is_back = true;
@@ -144,11 +148,11 @@ bool fan_fits(std::span<const PlanePoint> ring) {
 /// The rings as points in ascending order, none twice, and edges between them.
 struct Drawing {
   std::vector<PlanePoint> points;
-  std::vector<std::uint32_t> vertices;  ///< One at each point.
+  std::vector<std::uint32_t> vertices;  ///< One vertex at each point.
   std::vector<RingEdge> edges;
 };
 
-/// Nothing where corners are apart but look as one: the polygon folds over.
+/// Draws a polygon; nothing where it folds over, so that separate corners look like one point.
 std::optional<Drawing> draw(std::span<const Vector3d> positions, std::span<const PlanePoint> points,
                             const PolygonRings& polygon, int depth) {
   std::vector<std::uint32_t> order(points.size());
@@ -246,7 +250,7 @@ bool is_plainly_convex(Vertices vertices, Corners corners, const Vector3d& norma
     if (!turns_left(b - a, c - b)) {
       return false;
     }
-    // Four turns to the left make one round; more may make several.
+    // Four left turns make one round; more turns may make several.
     if (n > 4 && i > 0 && i + 1 < n && !turns_left(a - origin, b - origin)) {
       return false;
     }
@@ -270,7 +274,7 @@ double deviation_from_plane(Vertices vertices, Corners corners, const Vector3d& 
     greatest = std::max(greatest, height);
     size2 = std::max(size2, p.squaredNorm());
   }
-  // The normal's own error: each of its n - 2 terms is rounded to 4 u of at most size2.
+  // The normal has an error of its own: each of its n - 2 terms is rounded to 4 u of at most size2.
   const double u = 0x1p-53;
   const double normal_error = 8.0 * u * static_cast<double>(corners.size()) * size2;
   const double rounding = 2.0 * normal_error * std::sqrt(size2);

@@ -15,28 +15,32 @@ namespace firstcontact::detail {
 
 /// A polygon: its outer ring, then its holes, as numbers of vertices.
 struct PolygonRings {
-  std::span<const std::uint32_t> corners;      ///< Of all rings, one after the other.
-  std::span<const std::uint32_t> hole_begins;  ///< Where each hole begins in `corners`.
+  std::span<const std::uint32_t> corners;      ///< Corners of all rings, one ring after the other.
+  std::span<const std::uint32_t> hole_begins;  ///< Index in `corners` at which each hole begins.
 };
 
-/// How a polygon was cut.
+/// The triangles of a polygon, and how they were found.
 struct PolygonCut {
-  /// The fan about the first corner is right; `triangles` is empty.
+  /// Whether the fan about the first corner is right; `triangles` is then empty.
   bool is_fan = true;
-  bool is_concave = false;  ///< The outer ring, as seen along the axis nearest to its normal.
-  /// No triangulation is right: the rings cross, or fold over in their plane. `triangles` is empty.
+  bool is_concave = false;  ///< Whether the outer ring is concave, as seen along the axis nearest
+                            ///< to its normal.
+  /// Whether no triangulation is right, as the rings cross, or fold over in their plane.
+  ///
+  /// `triangles` is then empty.
   bool crosses = false;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Cuts a polygon of at least four corners, or with holes. Orientation is that of the outer ring;
-/// holes may have either.
+/// Cuts a polygon of at least four corners, or with holes.
 ///
-/// The polygon is cut as it appears along the coordinate axis nearest to its normal (M. E. Newell;
-/// I. E. Sutherland, R. F. Sproull, R. A. Schumacker, "A characterization of ten hidden-surface
-/// algorithms", ACM Computing Surveys 6 (1974)); for a planar polygon this is exact. The fan about
-/// the first corner is taken wherever it is right, which is so for every convex polygon.
-/// Otherwise see triangulate_rings().
+/// Triangles have the orientation of the outer ring; holes may have either orientation. The polygon
+/// is cut as seen along the coordinate axis nearest to its normal, which is exact for a planar
+/// polygon. The fan about the first corner is taken wherever it is right, as it is for every convex
+/// polygon. Otherwise see triangulate_rings().
+///
+/// Source: M. E. Newell's normal, after I. E. Sutherland, R. F. Sproull, R. A. Schumacker, "A
+/// characterization of ten hidden-surface algorithms", ACM Computing Surveys 6 (1974).
 ///
 /// @param vertices  n points; finite
 /// @param polygon   numbers below n
@@ -44,7 +48,8 @@ struct PolygonCut {
                                      const PolygonRings& polygon);
 
 /// Whether a polygon is certainly convex, as seen along its normal; then its fan is right.
-/// Quick, and false where rounding leaves it open.
+///
+/// The test is quick, and false where rounding leaves the answer open.
 ///
 /// @param normal  of newell_normal()
 [[nodiscard]] bool is_plainly_convex(std::span<const Eigen::Vector3d> vertices,
@@ -55,11 +60,10 @@ struct PolygonCut {
 [[nodiscard]] Eigen::Vector3d newell_normal(std::span<const Eigen::Vector3d> vertices,
                                             std::span<const std::uint32_t> corners);
 
-/// [m]  The thickness of a ring's corners along its normal, less than what rounding can account
-/// for.
+/// [m]  The thickness of a ring's corners along its normal, less a bound of its rounding.
 ///
-/// Two ways to cut the ring are no farther apart along the normal, and those of a quadrilateral so
-/// far.
+/// Two ways to cut the ring are no farther apart along the normal. Those of a quadrilateral are
+/// exactly so far apart.
 [[nodiscard]] double deviation_from_plane(std::span<const Eigen::Vector3d> vertices,
                                           std::span<const std::uint32_t> corners,
                                           const Eigen::Vector3d& normal);

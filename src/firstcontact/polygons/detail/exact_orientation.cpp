@@ -20,12 +20,13 @@ class ExactSum {
     add(product.hi);
   }
 
-  /// The part of the greatest size holds the sign, and all of the sum but half a unit of its last
-  /// place.
+  /// The part of the greatest size, which has the sign of the sum.
+  ///
+  /// It is the sum up to half a unit of its last place.
   [[nodiscard]] double value() const { return parts_.empty() ? 0.0 : parts_.back(); }
 
  private:
-  /// Shewchuk's Grow-Expansion, with zeros left out.
+  /// Adds x by Shewchuk's Grow-Expansion, with zeros left out.
   void add(double x) {
     std::size_t kept = 0;
     for (const double part : parts_) {

@@ -13,8 +13,9 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Polygons thicker than this fraction of the mesh's diagonal are not planar. Decimals of six
-/// places stay below it, on a body of some tenths of a metre.
+/// [-]  Polygons thicker than this fraction of the mesh's diagonal are not planar.
+///
+/// Decimals of six places stay below it, on a body of some tenths of a metre.
 constexpr double kPlanar = 1e-5;
 
 double diagonal(const std::vector<Eigen::Vector3d>& vertices) {
@@ -25,7 +26,7 @@ double diagonal(const std::vector<Eigen::Vector3d>& vertices) {
   return bounds.isEmpty() ? 0.0 : bounds.diagonal().norm();
 }
 
-/// The corners that a fan was made of.
+/// Recovers the corners from which a fan was made.
 void corners_of_fan(std::span<const Triangle> fan, std::size_t count,
                     std::vector<std::uint32_t>& corners) {
   corners.assign({fan[0][0], fan[0][1]});
@@ -61,19 +62,19 @@ std::string counted(std::size_t count, const char* what) {
 }  // namespace
 
 struct MeshBuilder::Account {
-  double planar = 0.0;  ///< [m]  The tolerance.
+  double planar = 0.0;  ///< [m]  Greatest thickness of a planar polygon.
   std::size_t polygons = 0;
   std::size_t concave = 0;
   std::size_t holes = 0;
   std::size_t crossing = 0;
-  std::size_t first_crossing = 0;  ///< Its place.
+  std::size_t first_crossing = 0;  ///< Place of the first polygon that crosses itself.
   std::size_t not_planar = 0;
-  double deviation = 0.0;                          ///< [m]  The greatest.
-  std::size_t deviating = 0;                       ///< Its place.
-  std::size_t hole_begin = 0;                      ///< Of the next polygon, in hole_begins_.
-  std::vector<Triangle> extra;                     ///< What a polygon had no room for.
+  double deviation = 0.0;                          ///< [m]  The greatest deviation from a plane.
+  std::size_t deviating = 0;                       ///< Place of the polygon with it.
+  std::size_t hole_begin = 0;                      ///< Index in hole_begins_ for the next polygon.
+  std::vector<Triangle> extra;                     ///< Triangles for which a polygon had no room.
   std::vector<std::array<std::size_t, 2>> unused;  ///< First triangle and number, ascending.
-  std::vector<std::uint32_t> corners;              ///< Of the polygon at hand.
+  std::vector<std::uint32_t> corners;              ///< Corners of the present polygon.
 };
 
 void MeshBuilder::note_polygon() {

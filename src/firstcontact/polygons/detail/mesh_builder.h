@@ -18,7 +18,7 @@
 
 namespace firstcontact::detail {
 
-/// A mesh in the making. Indices are checked at the end, as faces may stand before vertices.
+/// A mesh under construction. Indices are checked at the end, as faces may stand before vertices.
 class MeshBuilder {
  public:
   /// The unit in which places of polygons in the file count.
@@ -26,7 +26,7 @@ class MeshBuilder {
 
   explicit MeshBuilder(Place places = Place::line) : places_(places) {}
 
-  /// Room for at most `count` items, of which no more can come than `bytes` are left.
+  /// Reserves room for at most `count` items, and no more than the `bytes` left can hold.
   void reserve_vertices(std::uint64_t count, std::size_t bytes, std::size_t least_size) {
     mesh_.vertices.reserve(std::min<std::uint64_t>(count, bytes / least_size + 1));
   }
@@ -36,7 +36,7 @@ class MeshBuilder {
 
   [[nodiscard]] std::size_t vertex_count() const { return mesh_.vertices.size(); }
 
-  /// False where the vertex would have no number.
+  /// Adds a vertex. False where the vertex would have no number.
   [[nodiscard]] bool add_vertex(const Eigen::Vector3d& p) {
     if (mesh_.vertices.size() == std::numeric_limits<std::uint32_t>::max()) {
       return false;
@@ -61,7 +61,7 @@ class MeshBuilder {
     }
   }
 
-  /// False for an index that no vertex can have.
+  /// Adds a corner to the polygon. False for an index that no vertex can have.
   [[nodiscard]] bool add_corner(std::int64_t index) {
     if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
       return false;
@@ -94,7 +94,7 @@ class MeshBuilder {
     return corners_;
   }
 
-  /// One past the greatest index, and where it stands.
+  /// One past the greatest index, and the place of that index.
   struct Greatest {
     std::uint32_t index_end = 0;
     std::size_t place = 0;
@@ -103,12 +103,13 @@ class MeshBuilder {
   [[nodiscard]] bool has_range_error() const { return greatest_.index_end > vertex_count(); }
   [[nodiscard]] bool is_empty() const { return mesh_.triangles.empty(); }
 
-  /// Cuts the polygons into triangles (cut_polygon.h) and gives the mesh. Each index has to be in
-  /// range. Triangles stand in the order of their polygons.
+  /// Cuts the polygons into triangles (cut_polygon.h) and returns the mesh.
   ///
-  /// The log gets the numbers of polygons of more than three corners, of those that are concave and
-  /// of holes, and warnings: of polygons that cross themselves, which stay fans, so that each
-  /// corner and edge is covered; and of polygons that are not planar, with the greatest deviation.
+  /// Each index has to be in range. Triangles stand in the order of their polygons.
+  ///
+  /// The log gets three numbers: polygons of more than three corners, concave polygons, and holes.
+  /// It warns of polygons that cross themselves, which stay fans, so that each corner and edge is
+  /// covered. It warns of polygons that are not planar, with the greatest deviation.
   [[nodiscard]] Mesh finish(ReadingLog& log);
 
   [[nodiscard]] Mesh finish() {
@@ -116,12 +117,14 @@ class MeshBuilder {
     return finish(ignored);
   }
 
-  /// The vertices alone.
+  /// Returns the vertices alone.
   [[nodiscard]] std::vector<Eigen::Vector3d> take_vertices() { return std::move(mesh_.vertices); }
 
  private:
   /// Polygons of equally many corners that follow each other, in the mesh and at equal steps in the
-  /// file. Until finish() their triangles are fans, from which the corners can be told.
+  /// file.
+  ///
+  /// Until finish() their triangles are fans, from which the corners can be recovered.
   struct PolygonRun {
     std::size_t first_triangle = 0;
     std::size_t place = 0;
@@ -152,7 +155,8 @@ class MeshBuilder {
   std::uint32_t first_ = 0;
   std::uint32_t previous_ = 0;
   std::uint32_t holes_ = 0;
-  std::vector<std::uint32_t> hole_begins_;  ///< Of all polygons, within the corners of each.
+  std::vector<std::uint32_t> hole_begins_;  ///< Holes of all polygons, as indices into the corners
+                                            ///< of each.
   std::vector<PolygonRun> runs_;
 };
 

@@ -13,8 +13,10 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/// The left border of what is not yet triangulated between two edges: a chain of nodes from the
-/// lower edge to the upper one. The newest of them, `helper`, is seen by the next point.
+/// The left border of the untriangulated region between two edges.
+///
+/// It is a chain of nodes from the lower edge to the upper one. The next point sees the newest of
+/// them, `helper`.
 struct Front {
   std::uint32_t bottom = kNone;
   std::uint32_t top = kNone;
@@ -30,13 +32,13 @@ struct Node {
   std::uint32_t up = kNone;
 };
 
-/// An edge from its left to its right end, and what is above it while the sweep is over it.
+/// An edge from its left to its right end, and the region above it while the sweep is over it.
 struct Edge {
   std::uint32_t left = 0;
   std::uint32_t right = 0;
   std::int64_t weight = 0;     ///< Rings to the right less rings to the left.
-  std::int64_t winding = 0;    ///< Above it.
-  std::uint32_t next = kNone;  ///< Of those with the same left end.
+  std::int64_t winding = 0;    ///< Winding number above the edge.
+  std::uint32_t next = kNone;  ///< Next edge with the same left end.
   Front front;
 };
 
@@ -71,7 +73,7 @@ class Sweep {
     std::uint32_t number;
   };
 
-  /// From bottom to top. Edges in the status do not cross, so one line decides.
+  /// Orders edges from bottom to top. Edges in the status do not cross, so one line decides.
   struct Order {
     using is_transparent = void;
     const Sweep* sweep;
@@ -95,7 +97,7 @@ class Sweep {
     return orientation(points_[a], points_[b], points_[c]);
   }
 
-  /// 1 where the point is above the edge.
+  /// The side of an edge on which a point lies; 1 above.
   [[nodiscard]] int side(std::uint32_t e, std::uint32_t point) const {
     return turn(edges_[e].left, edges_[e].right, point);
   }
@@ -116,7 +118,7 @@ class Sweep {
     triangles_.push_back(winding < 0 ? std::array{a, c, b} : std::array{a, b, c});
   }
 
-  /// The flat triangle of an edge and a point on it, which becomes the left end of what remains.
+  /// Adds the flat triangle of an edge and a point on it, which becomes the left end of the rest.
   void split(std::uint32_t left, std::uint32_t right, std::int64_t weight, std::uint32_t v) {
     triangles_.push_back(weight < 0 ? std::array{right, left, v} : std::array{left, right, v});
     add_edge(v, right, weight);
@@ -185,7 +187,7 @@ class Sweep {
     return front;
   }
 
-  /// The fronts below and above a diagonal from v to the helper.
+  /// Splits a front at a diagonal from v to the helper: the fronts below and above it.
   std::pair<Front, Front> split_front(const Front& front, std::uint32_t v, std::int64_t winding) {
     const std::uint32_t helper = front.helper;
     const std::uint32_t above = nodes_[helper].up;
@@ -196,7 +198,7 @@ class Sweep {
     return {with_top(lower, v, winding), with_bottom(upper, v, winding)};
   }
 
-  /// The front of two gaps that become one at v, the top of the lower and the bottom of the upper.
+  /// Joins the fronts of two gaps at v, the top of the lower and the bottom of the upper one.
   Front joined(const Front& lower, const Front& upper) {
     const std::uint32_t above = nodes_[upper.bottom].up;
     nodes_[lower.top].up = above;
@@ -206,17 +208,17 @@ class Sweep {
     return {lower.bottom, upper.top == upper.bottom ? lower.top : upper.top, lower.top};
   }
 
-  /// Both edges of a gap end at v.
+  /// Closes a gap whose two edges end at v.
   void close(const Front& front, std::uint32_t v, std::int64_t winding) {
     const Front closed = with_bottom(front, v, winding);
-    // As seen from its other side, v is above the top too.
+    // Seen from the other side, v is above the top, too.
     const Front turned = with_top(closed, v, winding);
     failed_ = failed_ || nodes_[nodes_[turned.top].down].down != turned.bottom;
   }
 
   // ---- Edges
 
-  /// Whether e, next below f, comes to lie above it.
+  /// Whether edge e, next below f, comes to lie above f.
   [[nodiscard]] bool cross(std::uint32_t e, std::uint32_t f) const {
     const std::uint32_t e_right = edges_[e].right;
     const std::uint32_t f_right = edges_[f].right;
@@ -228,7 +230,7 @@ class Sweep {
         failed_ || (below != status_.end() && above != status_.end() && cross(*below, *above));
   }
 
-  /// The edges that start at v, from bottom to top; what lies on each other is one edge.
+  /// The edges that start at v, from bottom to top; edges that lie on each other are one edge.
   std::vector<std::uint32_t> starting_edges(std::uint32_t v) {
     starting_.clear();
     for (std::uint32_t e = starting_at_[v]; e != kNone; e = edges_[e].next) {
@@ -254,7 +256,7 @@ class Sweep {
     return distinct;
   }
 
-  /// Ends the edges at v, or that v lies on. Returns the front above the topmost of them.
+  /// Ends the edges that end at v or that v lies on. Returns the front above the topmost of them.
   Front end_edges(Status::iterator first, Status::iterator last, std::uint32_t v) {
     Front above;
     for (auto it = first; it != last; ++it) {

@@ -21,8 +21,8 @@ struct BallPath {
 
 /// A box that contains the ball throughout the window, all roundings included.
 ///
-/// Between two times the centre stays within min(w^2 l h^2 / 8, 2 l) of the line between its ends:
-/// its acceleration is w^2 l, with l its distance from the axis, and h the time between them.
+/// Between two times the centre stays within min(w^2 l h^2 / 8, 2 l) of the line between its ends.
+/// Its acceleration is w^2 l, with l its distance from the axis. h is the time between them.
 [[nodiscard]] Eigen::AlignedBox3d swept_box(const BallPath& ball, const TimeWindow& window);
 
 /// [-]  A time before which the two balls are farther apart than the margin; infinite for the whole

@@ -25,7 +25,7 @@ namespace firstcontact::detail {
 
 /// Takes pairs as they are found, some of them more than once.
 ///
-/// As long as there are few, all are listed. Of many pairs the list keeps only those that may
+/// As long as there are few, all are listed. If there are many, the list keeps only those that may
 /// remain, and counts all. Counting very many would take long, so it ends. The search for pairs
 /// that are not among the nearest then ends, too.
 class CloseList {

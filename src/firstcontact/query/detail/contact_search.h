@@ -47,10 +47,10 @@ struct SearchLimits {
   const CornerLines* lines = nullptr;  ///< The lines of the corners, if there are any.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
-  const Shape* A =
-      nullptr;  ///< Of the pair, where it may be asked whether one slides on its screw.
+  const Shape* A = nullptr;  ///< Shape of the pair, where screw sliding may be tried.
   const Shape* B = nullptr;
-  const BoxFront* front = nullptr;  ///< Of the pair, if there is one: the search begins there.
+  const BoxFront* front = nullptr;  ///< Front of the pair, if there is one: the search begins
+                                    ///< there.
 };
 
 /// Searches [t_begin, t_end] of a piece for the first contact.
