@@ -16,7 +16,7 @@
 
 namespace firstcontact {
 struct ContactWays::Data {
-  /// What one thread needs.
+  /// The data of one thread.
   struct Worker {
     Worker(const EdgeChecker& edges, const PlanOptions& options, double range)
         : work(edges, options, detail::PlanWork::Clock::now(),
@@ -25,7 +25,7 @@ struct ContactWays::Data {
 
     detail::PlanWork work;
     detail::ContactSteering steering;
-    std::optional<detail::GapSampler> gaps;  // Made where it is needed.
+    std::optional<detail::GapSampler> gaps;  // Made at the first use.
   };
 
   std::shared_ptr<const EdgeChecker> edges;
@@ -45,8 +45,9 @@ struct ContactWays::Data {
     return edges->check_quickly(from, to).verdict == EdgeVerdict::free;
   }
 
-  /// Adds places to a way up to the first whose edge is not free: some are rounded places of a
-  /// longer edge that was proven. Whether all were taken.
+  /// Adds places to a way up to the first whose edge is not free; returns whether all were added.
+  ///
+  /// Some are rounded places of a longer edge that was proven.
   [[nodiscard]] bool append(const std::vector<Configuration>& places, ProvenWay& way) const {
     for (const Configuration& next : places) {
       if (!is_free(way.places.back(), next)) {

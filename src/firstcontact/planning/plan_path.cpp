@@ -32,9 +32,10 @@ constexpr std::uint64_t kLessEffort = 20;
 
 /// [-]  Trees grow to less than a blocked edge's fraction; slides begin where it ends.
 constexpr double kFractionTolerance = 1e-3;
-constexpr int kWiderMargins = 20;  // Each wider than the one before...
-constexpr double kWider = 4.0;     // [-]  ...by this factor, the last one by half of it.
-/// [-]  The least distance is looked for along edges that are proven by such a part of the effort.
+constexpr int kWiderMargins = 20;  // Number of margins, each wider than the one before.
+constexpr double kWider = 4.0;     // [-]  Factor from one margin to the next; the last one grows by
+                                   // half of it.
+/// [-]  Divisor of the effort: the least distance is computed along edges whose proof takes less.
 constexpr std::uint64_t kShareOfEasy = 100;
 
 void require_plan(bool condition, const std::string& what) {
@@ -71,14 +72,15 @@ void require_places(const ConfigurationSpace& space, const Configuration& start,
                                " slides without limits; give it bounds");
 }
 
-/// In contact an edge is soon tried again, and its proven part is kept: there less effort is more.
+/// The effort of the search. In contact an edge is soon tried again and its proven part is kept, so
+/// that less effort gains more.
 std::uint64_t hasty_effort(const PlanOptions& options) {
   return options.contacts == ContactUse::none
              ? options.effort
              : std::max<std::uint64_t>(options.effort / kLessEffort, 1);
 }
 
-/// [m]  What a search keeps beyond the margins.
+/// [m]  The distance that a search keeps beyond the margins.
 double kept_by_search(const PlanOptions& options) {
   return options.extra_clearance + 2.0 * options.tolerance;
 }
@@ -139,17 +141,18 @@ class PlanSearch {
   }
 
  private:
-  /// The search was stopped before it began.
+  /// Thrown where the search was stopped before it began.
   struct Stopped {};
 
-  /// What was stopped is undecided: that is no fault of the question.
+  /// Throws Stopped where the search was stopped: an undecided check is then no fault of the
+  /// question.
   void require_going_on() const {
     if (options_.stop.stop_requested()) {
       throw Stopped();
     }
   }
 
-  /// Leaves out goals that are not free, as long as one is.
+  /// Leaves out goals that are not free, as long as one is free.
   void require_free(const Configuration& start, const std::vector<Configuration>& goals) {
     const auto refuse_if_blocked = [&](const Configuration& q, const std::string& what) {
       const PathEnd at = &q == &start ? PathEnd::start : PathEnd::goal;
@@ -199,8 +202,9 @@ class PlanSearch {
     return at_end(at)->is_free(q);
   }
 
-  /// Finds the edges on which pairs open: where the search begins, and its targets. None where
-  /// there is no such edge.
+  /// Finds the edges on which pairs open; the search begins and ends at their ends.
+  ///
+  /// It returns none where there is no such edge.
   std::optional<Configuration> open_ends(const Configuration& start, RandomNumbers& random) {
     const auto opening = [&](const Configuration& end, PathEnd at) {
       return at_end(at) ? detail::find_opening({*at_end(at), checker_, end, at, first_step()},
@@ -223,11 +227,13 @@ class PlanSearch {
     return from;
   }
 
-  /// [m]  No way that is shorter leads out of contact.
+  /// [m]  Length below which no way leads out of contact.
   [[nodiscard]] double first_step() const { return options_.extra_clearance + options_.tolerance; }
 
-  /// Adds the edges on which pairs open. Another edge remains, if only one of no length: along it
-  /// the pairs keep their margins.
+  /// Adds the edges on which pairs open.
+  ///
+  /// Another edge always remains beside these, if only one of no length: along it the pairs keep
+  /// their margins.
   void add_ends(const Configuration& start, FoundPath& found) {
     if (found.places.size() == 1 && (at_start_ || at_goal_)) {
       found.places.push_back(found.places.front());
@@ -253,7 +259,7 @@ class PlanSearch {
     return detail::rrt_connect(work_, start, targets_, range, random);
   }
 
-  /// The place of an edge in a path that has the edges on which pairs open.
+  /// The place of an edge in a path with the edges on which pairs open.
   [[nodiscard]] EdgePlace place_of(std::size_t edge, const FoundPath& found) const {
     if (at_start_ && edge == 0) {
       return EdgePlace::at_start;
@@ -269,7 +275,7 @@ class PlanSearch {
             .held = contacts_.held(place)};
   }
 
-  /// Checkers of edges that have not seen the path.
+  /// Checkers that have not seen the edges of the path.
   struct Proof {
     Proof(const PlanScene& scene, EdgeCheckOptions options) : fresh(scene, options) {
       options.effort = std::max<std::uint64_t>(1, options.effort / kShareOfEasy);
@@ -280,11 +286,11 @@ class PlanSearch {
     std::optional<EdgeChecker> brief = {};
   };
 
-  /// Proves an edge, with a clearance that is near the least distance where that is easy.
+  /// Proves an edge, with a clearance that is near the least distance where that takes little work.
   ///
-  /// Where surfaces are close to each other over much of themselves, as threads are, the least
-  /// distance costs far more than the proof. So it does where the tolerance is small beside the
-  /// sizes. A bound by wider and wider margins does without it.
+  /// The least distance costs far more than the proof where surfaces are close to each other over
+  /// large areas, as screw threads are. So it does where the tolerance is small beside the sizes. A
+  /// bound by wider and wider margins avoids that cost.
   [[nodiscard]] EdgeAnswer proof_of(const Proof& proof, const Configuration& from,
                                     const Configuration& to) const {
     const EdgeChecker& fresh = proof.fresh;
@@ -301,8 +307,9 @@ class PlanSearch {
     return best;
   }
 
-  /// Proves an edge, with a clearance by wider and wider margins: at least a quarter of the least
-  /// distance, where the effort is enough for them.
+  /// Proves an edge, with a clearance by wider and wider margins.
+  ///
+  /// The clearance is at least a quarter of the least distance, where the effort suffices.
   [[nodiscard]] EdgeAnswer clearance_by_margins(const EdgeChecker& fresh, const Configuration& from,
                                                 const Configuration& to) const {
     EdgeAnswer best = fresh.check(from, to);
@@ -322,7 +329,7 @@ class PlanSearch {
     return best;
   }
 
-  /// Proves the edges anew, by a checker that has not seen them.
+  /// Proves the edges anew, by checkers that have not seen them.
   void prove(FoundPath found, const std::vector<Configuration>& goals, PlanResult& result) const {
     const Proof inner(scene_, options_of_proof(EdgePlace::inner));
     std::optional<Proof> at_start;
@@ -373,12 +380,13 @@ class PlanSearch {
   PlanWork::Clock::time_point end_;
   detail::ContactEnds contacts_;
   EdgeChecker checker_;
-  std::optional<EdgeChecker> hasty_;     // Of the search, where that has less effort.
-  std::optional<EdgeChecker> at_start_;  // Where pairs must open at that end.
+  std::optional<EdgeChecker> hasty_;     // Checker of the search, where that has less effort.
+  std::optional<EdgeChecker> at_start_;  // Checker where pairs must open at that end.
   std::optional<EdgeChecker> at_goal_;
   PlanWork work_;
-  std::vector<Configuration> goals_;    // That are free.
-  std::vector<Configuration> targets_;  // Of the search: goals, or where pairs have opened.
+  std::vector<Configuration> goals_;    // The goals that are free.
+  std::vector<Configuration> targets_;  // Targets of the search: goals, or places where pairs have
+                                        // opened.
   std::vector<Configuration> goal_of_target_;
   std::vector<std::string> warnings_;
 };

@@ -43,7 +43,7 @@ bool is_planned(const PlanQuestion& question, std::size_t robot) {
   return std::ranges::find(question.robots, robot) != question.robots.end();
 }
 
-/// Whether a robot holds a body, whose own motion has no meaning then.
+/// Whether a robot holds a body, whose own motion then has no meaning.
 bool is_held(const Scene& scene, std::size_t body) {
   return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
     return std::ranges::any_of(robot.attached, [&](const SceneAttachment& held) {
@@ -68,7 +68,7 @@ std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& qu
   return std::nullopt;
 }
 
-/// Takes the first point of a trajectory among the positions at which the robot rests.
+/// Adds the first point of a trajectory to the positions at which the robot rests.
 void rest_at_begin(SceneRobot& robot) {
   const Trajectory& trajectory = robot.trajectory;
   for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
@@ -87,7 +87,7 @@ void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
   }
 }
 
-/// What forces would move in a simulation.
+/// Names of the bodies that forces would move in a simulation.
 std::vector<std::string> frozen_by_plan(const Scene& scene, const PlanQuestion& question) {
   std::vector<std::string> frozen;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
@@ -99,7 +99,7 @@ std::vector<std::string> frozen_by_plan(const Scene& scene, const PlanQuestion& 
   return frozen;
 }
 
-/// Takes the start of the question among the positions at which its robots rest.
+/// Adds the start of the question to the positions at which its robots rest.
 void rest_at_start(const PlanQuestion& question, Scene& scene) {
   for (const auto& [name, position] : question.start) {
     const detail::RobotName split = detail::split_robot_name(scene, question.robots, name);
@@ -108,8 +108,9 @@ void rest_at_start(const PlanQuestion& question, Scene& scene) {
   }
 }
 
-/// A pose with a quaternion of length 1, as places of a body have it: rounded decimals are scaled.
-/// One that has this length comes back bit for bit.
+/// A pose with a quaternion of length 1, as places of a body have it.
+///
+/// Rounded decimals are scaled. A quaternion of length 1 comes back bit for bit.
 Pose with_unit_quaternion(Pose pose) {
   constexpr double kUnit = 1e-7;  // Stricter than ConfigurationSpace::defect().
   if (std::abs(pose.rotation.norm() - 1.0) > kUnit) {
@@ -118,7 +119,7 @@ Pose with_unit_quaternion(Pose pose) {
   return pose;
 }
 
-/// Gives the body that is planned the pose in which it starts.
+/// Gives the planned body the pose in which it starts.
 void rest_at_start(const PlanQuestion& question, Body& body) {
   if (question.start_pose) {
     body.motion = FixedMotion{*question.start_pose};
@@ -131,8 +132,9 @@ void rest_at_start(const PlanQuestion& question, Body& body) {
   at_rest->pose = with_unit_quaternion(at_rest->pose);
 }
 
-/// The scene with the movers at rest at their start, all else at rest or moving by itself, and the
-/// margin of the question.
+/// The scene with the movers at rest at their start, and the margin of the question.
+///
+/// All other bodies rest or move by themselves.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
   const bool keeps_times = what_moves(scene, question).has_value();
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
@@ -186,7 +188,8 @@ void require_movers(const Scene& scene, const PlanQuestion& question) {
   }
 }
 
-/// Gives what is held the place in its link that it has at the start. Whether any was given.
+/// Gives held bodies the place in their link that they have at the start; returns whether there are
+/// any.
 bool freeze_held(const LoadedScene& loaded, Scene& scene) {
   bool any = false;
   for (SceneRobot& robot : scene.robots) {
@@ -219,9 +222,9 @@ std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
   return held;
 }
 
-/// [rad/s or m/s]  How fast each coordinate may move, or a body.
+/// [rad/s or m/s]  The speed limit of each coordinate, or of a body.
 ///
-/// @param moving  what makes speeds matter, for errors
+/// @param moving  the cause that makes speeds matter, for errors
 std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationSpace& space,
                               const std::string& moving) {
   const auto speed = [&](const std::string& name, const std::optional<double>& own) {
@@ -249,7 +252,7 @@ void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& pla
   }
 }
 
-/// The space of what the question plans.
+/// The space of the question's robots.
 ConfigurationSpace space_of_robots(const LoadedScene& loaded, const PlanQuestion& question) {
   const std::vector<std::vector<std::string>> joints =
       detail::planned_joints(loaded.scene, question);
@@ -291,7 +294,7 @@ ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question) {
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
 }
 
-/// The scene as its check has it, with the mover as a robot of its own: numbered alike.
+/// The scene as its check has it, numbered alike, with the mover as a robot of its own.
 RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
                          const ConfigurationSpace& space, const Configuration& start) {
   const Scene& scene = loaded.scene;
@@ -405,7 +408,7 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   if (scene.plan.space.has_screws()) {
     refuse_plan("expected straight edges of the body; a path file holds no screws");
   }
-  constexpr std::uint64_t kSeeds = std::uint64_t{1} << 53;  // Whole numbers that JSON keeps.
+  constexpr std::uint64_t kSeeds = std::uint64_t{1} << 53;  // JSON keeps whole numbers below this.
   if (options.seed >= kSeeds) {
     refuse_plan("expected a seed below 2^53, which a path file holds, got " +
                 std::to_string(options.seed));

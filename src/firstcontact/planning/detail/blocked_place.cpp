@@ -22,10 +22,10 @@ namespace {
 
 constexpr std::size_t kRings = 12;  // Each twice as wide as the one before.
 constexpr std::size_t kPlacesOfRing = 128;
-constexpr double kFirstRing = 1e-3;  // [-]  Of what is sampled.
+constexpr double kFirstRing = 1e-3;  // [-]  Part of the sampled region.
 constexpr int kHalvingsToFree = 12;
 
-/// [m]  The way along a direction from which on A, moved along it, does not touch B any more.
+/// [m]  Length of the way along a direction from which on A no longer touches B.
 std::optional<double> way_out(const Shape& A, const Pose& X_WA, const Shape& B, const Pose& X_WB,
                               const Eigen::Vector3d& direction, Workspace& workspace) {
   const double far = 2.0 * (A.hierarchy().radius + B.hierarchy().radius + A.radius() + B.radius()) +
@@ -61,14 +61,14 @@ RobotScene placed_scene(const PlaceTest& test, const Configuration& q) {
   return scene;
 }
 
-/// [m]  What a pair is held to in place of its margin.
+/// [m]  The distance to which a pair is held in place of its margin.
 std::optional<double> held_distance(const PlaceTest& test, const BodyPair& pair) {
   const std::vector<HeldPair>& held = test.options.held;
   const auto found = std::ranges::find(held, pair, &HeldPair::members);
   return found == held.end() ? std::nullopt : std::optional(found->distance);
 }
 
-/// Halves the way to a free place as long as its middle is free, or the other half of it.
+/// Halves the way to a free place as long as its middle is free, or the middle of the other half.
 Configuration nearer_place(const PlaceTest& test, Configuration blocked, Configuration best) {
   for (int k = 0; k < kHalvingsToFree; ++k) {
     Configuration middle = test.scene.space.interpolate(blocked, best, 0.5);
@@ -77,8 +77,7 @@ Configuration nearer_place(const PlaceTest& test, Configuration blocked, Configu
   return best;
 }
 
-/// A free place on a straight way; of all directions the one with the shortest, but for a factor
-/// of 2.
+/// A free place on a straight way; among all directions the nearest, up to a factor of 2.
 std::optional<Configuration> free_place_straight_from(const PlaceTest& test, const Configuration& q,
                                                       RandomNumbers& random) {
   const ConfigurationSpace& space = test.scene.space;
@@ -115,7 +114,8 @@ bool has_tracking_errors(const RobotScene& scene) {
   return false;
 }
 
-/// How near a pair is that does not touch: all that the test of places adds up, and the mend.
+/// Describes the distance of a pair that does not touch: the sum that the test requires, and the
+/// mend.
 std::string too_near(const PlaceTest& test, const RobotScene& placed, const BodyPair& pair) {
   const double tolerances = test.options.extra_clearance + test.options.tolerance;
   return " are no farther apart than their margin of " +
@@ -135,8 +135,9 @@ std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) 
   return text;
 }
 
-/// [m]  The shortest straight way, of 26 directions, on which the first shape leaves the second one
-/// for good: an upper bound of how deep the two are in each other. None where it was not found.
+/// [m]  An upper bound of how deep the two are in each other; none where it was not found.
+///
+/// It is the shortest of 26 straight ways on which the first shape leaves the second one for good.
 std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members, double t) {
   Workspace workspace;
   double deepest = 0.0;
@@ -148,7 +149,7 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members,
       const Pose X_WB = scene.geometry_pose(members[1], b, t);
       if (distance({A, Motion::fixed(X_WA)}, {B, Motion::fixed(X_WB)}, 0.0, workspace).distance >
           0.0) {
-        continue;  // Near, or all around: what does not meet has no depth.
+        continue;  // Near, or enclosed: a pair that does not meet has no depth.
       }
       double least = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector3d& direction : directions_of_cube()) {
@@ -161,8 +162,10 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members,
   return std::isfinite(deepest) ? std::optional(deepest) : std::nullopt;
 }
 
-/// A free place near to one that is not: on a straight way along an axis or in a random direction,
-/// else the nearest of some thousand random places.
+/// A free place near one that is not free.
+///
+/// It is on a straight way along an axis or in a random direction, else the nearest of some
+/// thousand random places.
 std::optional<Configuration> free_place_near(const PlaceTest& test, const Configuration& q) {
   const ConfigurationSpace& space = test.scene.space;
   RandomNumbers random(1);

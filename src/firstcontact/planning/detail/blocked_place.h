@@ -1,5 +1,5 @@
 /// @file
-/// What to tell of a place that is not free.
+/// The message about a place that is not free.
 
 #pragma once
 
@@ -10,28 +10,28 @@
 
 namespace firstcontact::detail {
 
-/// Decides which places are free.
+/// The test of which places are free.
 struct PlaceTest {
   const PlanScene& scene;
-  const EdgeCheckOptions& options;  ///< Those by which it decides.
+  const EdgeCheckOptions& options;  ///< The options of the test.
   std::function<bool(const Configuration&)> is_free;
-  double t = 0.0;  ///< [-]  Where the surroundings move, they are where they are then.
+  double t = 0.0;  ///< [-]  Time at which a moving environment is taken.
 };
 
-/// The test of places by a checker, which outlives it.
+/// The test of places by a checker, which outlives the result.
 [[nodiscard]] PlaceTest test_of(const EdgeChecker& checker);
 
-/// One sentence: a pair, how deep it is, and the nearest free place that was found.
+/// Describes a pair in one sentence: its depth, and the nearest free place that was found.
 ///
-/// The depth is that of the shortest straight way, of 26 directions, on which the first shape
-/// leaves the second one for good: an upper bound. The place is on a straight way along an axis or
-/// in a random direction, else the nearest of some thousand random places.
+/// The depth is an upper bound: the shortest of 26 straight ways on which the first shape leaves
+/// the second one for good. The place is on a straight way along an axis or in a random direction,
+/// else the nearest of some thousand random places.
 ///
 /// @param what  "the start is not free"
 [[nodiscard]] std::string describe_pair(const PlaceTest& test, const Configuration& q,
                                         const BodyPair& pair, const std::string& what);
 
-/// The same of the pair that blocks a place.
+/// Describes the pair that blocks a place likewise.
 ///
 /// @param what  "the start"
 [[nodiscard]] std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,

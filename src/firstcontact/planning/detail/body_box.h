@@ -16,10 +16,10 @@ class RobotScene;
 
 namespace firstcontact::detail {
 
-/// [m]  Corners of a box around all that there is at any time, with room for the mover around it.
+/// [m]  Corners of a box around the whole scene at all times, with room for the mover around it.
 ///
-/// Members are as large as the mover sees them: with their thickness, the margin of the pair and
-/// both paddings. What moves is looked at at some times; the room around it makes up for those
+/// Members have the size that the mover meets: with their thickness, the margin of the pair and
+/// both paddings. Moving members are sampled at some times; the room around the box covers those
 /// between.
 ///
 /// @param scene  its first robot is the mover

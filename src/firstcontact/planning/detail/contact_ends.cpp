@@ -21,14 +21,15 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kToleranceShare = 0.125;  // [-]  Of what lies between the hold and the distance.
-constexpr double kSearchTolerances = 2.0;  // That a search is held to beyond the proof.
+constexpr double kToleranceShare = 0.125;  // [-]  Part of the difference of distance and hold.
+constexpr double kSearchTolerances = 2.0;  // [-]  Tolerances by which the hold of a search exceeds
+                                           // that of the proof.
 
 std::string names_of(const PlanScene& plan, const BodyPair& members) {
   return in_quotes(plan.name(members[0])) + " and " + in_quotes(plan.name(members[1]));
 }
 
-/// How far apart two members are at a place, as far as a hold has to know it.
+/// The gap of two members at a place, as far as a hold needs it.
 StartGap gap_at(const PlanScene& plan, const Configuration& q, const BodyPair& members, double kept,
                 double tolerance) {
   RobotScene scene = plan.scene;

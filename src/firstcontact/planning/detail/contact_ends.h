@@ -1,6 +1,5 @@
 /// @file
-/// Pairs that are in contact at an end of a path: how near they are, and the edge on which they
-/// open.
+/// Pairs that are in contact at an end of a path: their distances, and the edge on which they open.
 
 #pragma once
 
@@ -23,13 +22,15 @@ enum class EdgePlace { inner, at_start, at_goal };
 /// The distances that contact pairs are held to.
 class ContactEnds {
  public:
-  /// Measures the pairs of a scene. Pairs that are not in contact at their end are left out, with a
-  /// warning.
+  /// Measures the pairs of a scene.
   ///
-  /// @param kept       [m]  what a search keeps beyond the margins
+  /// Pairs that are not in contact at their end are left out, with a warning.
+  ///
+  /// @param kept       [m]  distance that a search keeps beyond the margins
   /// @param tolerance  [m]  of the search
-  /// @throws std::invalid_argument if a pair is not tested, or touches at its end: there nothing is
-  ///         left to hold. The message has the depth and the nearest free place that was found
+  /// @throws std::invalid_argument if a pair is not tested, or touches at its end, so that no
+  ///         distance is left to hold. The message has the depth and the nearest free place that
+  ///         was found
   ContactEnds(const PlanScene& plan, const Configuration& start,
               const std::vector<Configuration>& goals, double kept, double tolerance);
 
@@ -42,7 +43,7 @@ class ContactEnds {
   /// The pairs that are held along an edge, for the proof of a path.
   [[nodiscard]] std::vector<HeldPair> held(EdgePlace place) const;
 
-  /// The same for a search: held to a little more, so that the proof finds its edges free.
+  /// The pairs that are held in a search: to a little more, so that the proof finds its edges free.
   [[nodiscard]] std::vector<HeldPair> held_in_search(EdgePlace place) const;
 
  private:
@@ -53,17 +54,19 @@ class ContactEnds {
   std::vector<std::string> warnings_;
 };
 
-/// The edge on which pairs open.
+/// The question for an edge on which pairs open.
 struct OpeningQuestion {
-  const EdgeChecker& held;    ///< For the edge.
-  const EdgeChecker& strict;  ///< For the place at which it ends, where all pairs are open.
-  const Configuration& end;   ///< Of the path, where the pairs are in contact.
+  const EdgeChecker& held;    ///< Checker of the edge.
+  const EdgeChecker& strict;  ///< Checker of the place at which the edge ends, where all pairs are
+                              ///< open.
+  const Configuration& end;   ///< End of the path, where the pairs are in contact.
   PathEnd at = PathEnd::start;
-  double first_step = 0.0;  ///< [m]  The shortest way that is tried.
+  double first_step = 0.0;  ///< [m]  Length of the shortest way that is tried.
 };
 
-/// Looks for a free place that a straight edge joins to an end of the path: along the axes and in
-/// random directions, on ways that double. Shorter ways come first.
+/// Looks for a free place that a straight edge joins to an end of the path.
+///
+/// It tries the axes and random directions, on ways that double. Shorter ways come first.
 ///
 /// @param is_over  ends the search
 [[nodiscard]] std::optional<Configuration> find_opening(const OpeningQuestion& question,

@@ -7,10 +7,10 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kSamePassage = 0.02;    // [-]  Of the range: two places so near are one.
-constexpr std::size_t kFirstDraws = 64;  // Of gaps; later ones are drawn more seldom.
+constexpr double kSamePassage = 0.02;    // [-]  Part of the range; two places so near are one.
+constexpr std::size_t kFirstDraws = 64;  // Draws of gaps before they become more seldom.
 
-/// Edges in contact that are allowed for each other one, until so many others were checked.
+/// Edges in contact that are allowed for each other edge, until so many others were checked.
 struct Ration {
   std::size_t until;
   double share;
@@ -18,7 +18,7 @@ struct Ration {
 constexpr std::array<Ration, 2> kRations = {{{500, 0.02}, {1500, 0.3}}};
 constexpr double kLastShare = 4.0;
 
-/// Edges that the ration has to leave before a way in contact begins, which takes dozens.
+/// Edges that the ration must leave before a way in contact begins; such a way takes dozens.
 constexpr double kFewEdges = 10.0;
 
 }  // namespace
@@ -185,7 +185,7 @@ std::optional<PassageTrees::Node> ContactGrowth::passage(std::size_t tree,
   if (turn_ != Turn::passages || !is_due()) {
     return std::nullopt;
   }
-  // More and more seldom, but without an end.
+  // Draws become more seldom, but never end.
   if (draws_ < kFirstDraws || random.below(draws_) < kFirstDraws) {
     counted([&] {
       find_passage(random);

@@ -23,51 +23,56 @@ namespace firstcontact::detail {
 
 /// Grows trees in contact. It does nothing for ContactUse::none.
 ///
-/// Work in contact is rationed by the number of edges, so that an easy question is answered as
-/// quickly as without it: little at first, then more the longer the search takes.
+/// Work in contact is rationed by the number of edges: little at first, then more the longer the
+/// search takes. So an easy question is answered as quickly as without contacts.
 class ContactGrowth {
  public:
   ContactGrowth(PlanWork& work, ContactUse use, double range);
 
-  /// What a blocked edge led to.
+  /// The result of following a blocked edge.
   struct Followed {
     std::size_t node = 0;
     bool reaches_target = false;
   };
 
-  /// Draws whose turn it is: blocked edges, pushes, or passages.
+  /// Draws the kind of work that is next: blocked edges, pushes, or passages.
   ///
-  /// @param is_stuck  no edge has led away from where the tree begins: contacts are not rationed
+  /// @param is_stuck  no edge has led away from the root of the tree: contacts are then not
+  ///                  rationed
   void next(bool is_stuck, RandomNumbers& random);
 
-  /// Follows a blocked edge from a node as far as contacts let it; none where that leads nowhere,
-  /// or is not this edge's turn.
+  /// Follows a blocked edge from a node as far as contacts let it.
+  ///
+  /// It returns none where that leads nowhere, or is not this edge's turn.
   std::optional<Followed> follow(PlanTree& tree, std::size_t from, const Configuration& target);
 
-  /// As ContactSteering::ways_out(), for ContactUse::both; else none.
+  /// The directions of ContactSteering::ways_out() for ContactUse::both; else none.
   [[nodiscard]] std::vector<std::array<Eigen::VectorXd, 2>> ways_out(const Configuration& from);
 
-  /// What a push out of contacts led to.
+  /// The result of a push out of contacts.
   struct Left {
     std::size_t node = 0;
-    bool is_out = false;  ///< It is out of contact.
+    bool is_out = false;  ///< Whether it is out of contact.
   };
-  /// Moves from a node in a direction, with all the effort that is allowed. None where that leads
-  /// nowhere.
+  /// Moves from a node in a direction, with all the effort that is allowed.
+  ///
+  /// It returns none where that leads nowhere.
   std::optional<Left> leave(PlanTree& tree, std::size_t from, const Eigen::VectorXd& direction);
 
-  /// Moves from a marked place in a random direction. The node at the end; none where that leads
-  /// nowhere, or it is not its turn.
+  /// Moves from a marked place in a random direction, and returns the node at the end.
+  ///
+  /// It returns none where that leads nowhere, or is not its turn.
   std::optional<std::size_t> push(PlanTree& tree, RandomNumbers& random);
 
-  /// A node of a passage for a tree to go to, 0 or 1; none where it is not its turn. Now and then a
-  /// new passage is found first.
+  /// A node of a passage as a target for a tree, 0 or 1; none where it is not its turn.
+  ///
+  /// Now and then it finds a new passage first.
   std::optional<PassageTrees::Node> passage(std::size_t tree, const Configuration& near,
                                             RandomNumbers& random);
 
   [[nodiscard]] PassageTrees& passages() { return passages_; }
 
-  /// Whether to go on along contacts towards a passage.
+  /// Goes on along contacts towards a passage, where it is its turn.
   std::optional<Followed> follow_to_passage(PlanTree& tree, std::size_t from,
                                             const Configuration& target);
 
@@ -94,10 +99,10 @@ class ContactGrowth {
   Turn turn_ = Turn::edges;
   std::optional<GapSampler> gaps_;
   PassageTrees passages_;
-  std::size_t draws_ = 0;  // Of gaps.
+  std::size_t draws_ = 0;  // Number of draws of gaps.
   bool is_stuck_ = false;
-  std::size_t spent_ = 0;    // Edges that were checked in contact,
-  std::size_t leaving_ = 0;  // and those of leave(), which are not rationed.
+  std::size_t spent_ = 0;    // Edges that were checked in contact.
+  std::size_t leaving_ = 0;  // Edges of leave(), which are not rationed.
 };
 
 }  // namespace firstcontact::detail

@@ -8,7 +8,7 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kWeightOfGap = 100.0;  // [-]  Against that of the motion.
+constexpr double kWeightOfGap = 100.0;  // [-]  Weight of the gap against that of the motion.
 constexpr int kSweeps = 100;
 
 /// Rows: the normal, and two tangents.
@@ -50,7 +50,7 @@ ContactMotion contact_motion(const TangentSpace& tangents, const ContactsAt& at,
   }
   for (const NearContact& contact : at.contacts) {
     const auto [a, b] = contact.members;
-    // Its A moves with the gap, too: the relative velocity is J dq - s.
+    // Member A of the contact moves with the gap, too: the relative velocity is J dq - s.
     LinkJacobian J = with_gap(at.members[a], n);
     J.col(n).head<3>() = contact.n_AB_W;
     problem.bodies.push_back({.link = MechanismLink{0, std::move(J)}});

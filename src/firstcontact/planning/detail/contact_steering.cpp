@@ -13,25 +13,28 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kHover = 0.01;      // [-]  Of the reach of the mover: the gap that is kept.
-constexpr double kFirstStep = 0.1;   // [-]  Of the reach.
-constexpr double kBand = 0.04;       // [-]  Of the reach: contacts that are farther do not steer.
-constexpr double kLeastStep = 1e-5;  // [-]  Of the reach.
-constexpr double kTaken = 0.9;       // [-]  Of what is proven of a blocked step.
-constexpr double kStuck = 0.02;      // [-]  A projected step that is shorter, of the wanted one.
+constexpr double kHover = 0.01;      // [-]  The gap that is kept, by the reach of the mover.
+constexpr double kFirstStep = 0.1;   // [-]  By the reach.
+constexpr double kBand = 0.04;       // [-]  By the reach; contacts that are farther do not steer.
+constexpr double kLeastStep = 1e-5;  // [-]  By the reach.
+constexpr double kTaken = 0.9;       // [-]  Part of the proven part of a blocked step.
+constexpr double kStuck = 0.02;  // [-]  Projected steps shorter than this part of the wanted one
+                                 // are stuck.
 constexpr std::size_t kMostSteps = 400;
-constexpr std::size_t kStepsToGain = 12;  // Steps after which something has to be gained.
-constexpr double kGain = 0.02;            // [-]  Of the way of these steps.
-constexpr double kMostTurn = 2.5;         // [rad]  Of one edge.
+constexpr std::size_t kStepsToGain = 12;  // Number of steps after which something has to be gained.
+constexpr double kGain = 0.02;            // [-]  Part of the way of these steps.
+constexpr double kMostTurn = 2.5;         // [rad]  Greatest turn of one edge.
 constexpr double kRangesOfPush = 20.0;    // [-]  The longest push, in ranges.
-constexpr std::size_t kFewContacts = 6;   // Of which none is left out of ways_out().
-constexpr double kLooseBand = 4.0;        // [-]  Of the hover gap: contacts of ways_out().
+constexpr std::size_t kFewContacts = 6;   // Number of contacts from which on ways_out() leaves some
+                                          // out.
+constexpr double kLooseBand = 4.0;        // [-]  Band of ways_out(), by the hover gap.
 constexpr std::size_t kLongestWait = 16;
-constexpr std::size_t kLookEvery = 8;  // Steps of a screw.
+constexpr std::size_t kLookEvery = 8;  // Number of steps of a screw between two looks.
 constexpr int kMostCentres = 32;
-constexpr double kSureTurn = 1.0;    // [rad]  After which a screw is known well enough.
+constexpr double kSureTurn = 1.0;    // [rad]  A screw is known well enough after this turn.
 constexpr double kTurns = 0.05;      // [-]  A motion that turns less, with the reach, slides.
-constexpr double kLeastTurn = 0.05;  // [rad]  So, too, from the middle of the play to the middle.
+constexpr double kLeastTurn = 0.05;  // [rad]  Least turn of a screw, from the middle of the play to
+                                     // the middle.
 
 }  // namespace
 
@@ -85,7 +88,8 @@ class ContactSteering::Way {
     return aim_.target != nullptr ? t_.difference(q_, *aim_.target) : t_.in_world(q_, aim_.in_body);
   }
 
-  /// Whether the straight way to the target is free; not asked again where it was blocked near by.
+  /// Whether the straight way to the target is free; rarely checked again where it was blocked near
+  /// by.
   bool is_free_to(const Configuration& target, std::size_t k) {
     if (k > 0 && held_back_ && k % 4 != 0) {
       return false;
@@ -103,7 +107,7 @@ class ContactSteering::Way {
     trail_.push_back(q_);
   }
 
-  /// The contacts at the place; not looked for again as long as it is the same.
+  /// The contacts at the place; not looked for again as long as the place is the same.
   const ContactsAt& contacts_within(double band) {
     if (!(band <= looked_within_)) {
       at_ = s_.finder_.near(q_, band);
@@ -112,7 +116,7 @@ class ContactSteering::Way {
     return at_;
   }
 
-  /// One step that contacts constrain. Whether it led anywhere.
+  /// Takes one step that contacts constrain; returns whether it led anywhere.
   bool contact_step(const Eigen::VectorXd& wanted, double length) {
     const ContactsAt& at =
         contacts_within(std::min(2.0 * length, kBand * t_.reach()) + 2.0 * s_.hover_);
@@ -171,8 +175,9 @@ class ContactSteering::Way {
     }
   }
 
-  /// Goes to the middle between contacts along the axis of the mover that it turns about, so that
-  /// what is repeated from there is not led astray by the play of a fit.
+  /// Goes to the middle between contacts along the axis about which the mover turns.
+  ///
+  /// The play of a fit would otherwise lead repeated steps astray.
   bool centre() {
     if (!s_.work_.space().is_body() || s_.work_.is_over()) {
       return false;
@@ -197,13 +202,14 @@ class ContactSteering::Way {
     return true;
   }
 
-  /// [-]  How much of a motion from here is proven.
+  /// [-]  The proven part of a motion from here.
   double free_share(const Eigen::VectorXd& in_body) {
     return s_.work_.check(q_, t_.moved(q_, t_.in_world(q_, in_body))).fraction;
   }
 
-  /// Goes on by the screw of all steps so far, from the middle of the play. Its pitch is the better
-  /// known the longer the way.
+  /// Goes on by the screw of all steps so far, from the middle of the play.
+  ///
+  /// A longer way gives a more accurate pitch.
   bool screw_on() {
     if (aim_.target != nullptr || !was_screw_ || !(screw_.tail<3>().norm() > kLeastTurn)) {
       return false;
@@ -221,7 +227,7 @@ class ContactSteering::Way {
     return false;
   }
 
-  /// Takes all that the trail has led to once more, if that is proven, and again.
+  /// Repeats the whole trail, if that is proven, and again.
   void repeat_trail() {
     if (trail_.size() < 2 || waits_ > 0) {
       waits_ -= waits_ > 0 ? 1 : 0;
@@ -245,11 +251,11 @@ class ContactSteering::Way {
     }
   }
 
-  /// Goes on by the screw that all steps since the middle of the contacts make, where they are all
+  /// Goes on by the screw that all steps since the middle of the contacts make, where these are all
   /// about one axis.
   bool repeat_screw() {
     bool any = false;
-    double share = 1.0;  // Of the screw.
+    double share = 1.0;  // Part of the screw.
     for (int halvings = 0; halvings <= 4 && !s_.work_.is_over();) {
       const double turn = screw_.tail<3>().norm();
       if (!(turn > 0.0) || !is_screw_) {
@@ -278,7 +284,7 @@ class ContactSteering::Way {
     return any;
   }
 
-  /// Whether a push is out of contact, so that there is nothing to repeat; looked at now and then.
+  /// Whether a push is out of contact, so that repeating is useless; checked now and then.
   bool is_out() {
     if (aim_.target != nullptr || way_.places.size() % kLookEvery != 0 ||
         !contacts_within(kBand * t_.reach()).contacts.empty()) {
@@ -321,7 +327,7 @@ class ContactSteering::Way {
     return any;
   }
 
-  /// Drops what is too far back: an edge turns by less than half a turn.
+  /// Drops places that are too far back: an edge turns by less than half a turn.
   void shorten_trail() {
     if (!s_.work_.space().is_body()) {
       return;
@@ -342,7 +348,7 @@ class ContactSteering::Way {
     trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(first));
   }
 
-  /// Whether the last steps have led on.
+  /// Whether the last steps have gained anything.
   bool gains() {
     if (way_.places.size() < looked_at_ + kStepsToGain) {
       return true;
@@ -367,17 +373,17 @@ class ContactSteering::Way {
   Configuration q_;
   double step_;
   std::vector<Configuration> trail_;
-  Eigen::VectorXd screw_;  // The sum of all steps, in axes of the mover.
+  Eigen::VectorXd screw_;  // Sum of all steps, in axes of the mover.
   ContactWay way_;
   double travelled_ = 0.0;
   bool held_back_ = false;
   ContactsAt at_;
-  double looked_within_ = -1.0;  // [m]  Of the contacts; below 0 where there are none yet.
-  double free_way_ = 0.0;        // [m]  Since the last contact.
-  bool is_screw_ = false;        // The last step was one about an axis of it,
-  bool was_screw_ = false;       // and that before a step that was blocked.
-  std::size_t wait_ = 0;         // Steps between two tries to repeat the trail.
-  std::size_t waits_ = 0;        // Steps that are left until the next try.
+  double looked_within_ = -1.0;  // [m]  Band of the contacts; below 0 where there are none yet.
+  double free_way_ = 0.0;        // [m]  Length of the way since the last contact.
+  bool is_screw_ = false;        // Whether the last step was a screw about an axis of the mover.
+  bool was_screw_ = false;       // Likewise before a step that was blocked.
+  std::size_t wait_ = 0;         // Number of steps between two tries to repeat the trail.
+  std::size_t waits_ = 0;        // Number of steps until the next try.
   std::size_t looked_at_ = 0;
   double travelled_before_ = 0.0;
   double before_ = 0.0;
@@ -453,7 +459,7 @@ std::vector<std::array<Eigen::VectorXd, 2>> ContactSteering::ways_out(const Conf
   if (at.contacts.empty()) {
     return {};
   }
-  // Of features that are no nearest ones of their region, most are among the farther ones.
+  // Most features that are not the nearest of their region are among the farther ones.
   at.contacts.resize(
       std::max((at.contacts.size() + 1) / 2, std::min(at.contacts.size(), kFewContacts)));
   std::vector<std::array<Eigen::VectorXd, 2>> ways;

@@ -1,5 +1,5 @@
 /// @file
-/// What a planner found.
+/// The path that a planner found.
 
 #pragma once
 
@@ -9,10 +9,11 @@
 
 namespace firstcontact::detail {
 
-/// A path from the start as far as a planner came.
+/// A path from the start, as far as a planner came.
 struct FoundPath {
-  std::vector<Configuration> places;  ///< Of proven edges; at least the start.
-  bool reaches_goal = false;          ///< Else it ends as near to a goal as was reached.
+  std::vector<Configuration> places;  ///< Places between proven edges; at least the start.
+  bool reaches_goal = false;  ///< Whether it ends at a goal; else it ends as near to a goal as the
+                              ///< search came.
 };
 
 }  // namespace firstcontact::detail

@@ -15,13 +15,13 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kRays = 64;  // Tries to find a gap.
+constexpr std::size_t kRays = 64;  // Number of tries to find a gap.
 constexpr std::size_t kWork =
-    300'000;  // Triangles that these look at; fewer tries where they are many.
-constexpr std::size_t kParts = 32;  // Thin parts that are kept.
-constexpr int kDrawsOfParts = 200;  // Rays for them.
-constexpr double kThinnest = 0.25;  // [-]  Of a gap: thinner parts do not say where to be in it.
-constexpr double kSnug = 1e-9;      // [-]  A part may be as wide as its gap, but for this.
+    300'000;  // Number of triangles for these tries; fewer tries where there are many triangles.
+constexpr std::size_t kParts = 32;  // Number of thin parts that are kept.
+constexpr int kDrawsOfParts = 200;  // Number of rays for them.
+constexpr double kThinnest = 0.25;  // [-]  Part of a gap; a thinner part may be anywhere in it.
+constexpr double kSnug = 1e-9;      // [-]  A part may be as wide as its gap, less this.
 
 Eigen::Vector3d any_across(const Eigen::Vector3d& n, RandomNumbers& random) {
   const Eigen::Vector3d t = n.unitOrthogonal();
@@ -66,10 +66,10 @@ void RayTarget::add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Ei
   }
 }
 
-// T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2 (1997).
+// Source: T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2 (1997).
 std::optional<RayTarget::Hit> RayTarget::cast(const Eigen::Vector3d& from,
                                               const Eigen::Vector3d& along) const {
-  constexpr double kHair = 1e-9;  // [m]  From the surface where the ray begins.
+  constexpr double kHair = 1e-9;  // [m]  Least distance from the surface where the ray begins.
   double least = std::numeric_limits<double>::infinity();
   const Triangle* hit = nullptr;
   for (const Triangle& triangle : triangles_) {
@@ -95,7 +95,7 @@ std::optional<RayTarget::Hit> RayTarget::cast(const Eigen::Vector3d& from,
 }
 
 std::size_t RayTarget::draw(RandomNumbers& random) const {
-  // By area, or each as often: narrow gaps have small sides.
+  // Draws by area, or each triangle as often: narrow gaps have small sides.
   if (random.below(2) == 0) {
     return random.below(triangles_.size());
   }

@@ -12,7 +12,8 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kFirstBatch = 64;  // Places; each further batch is half of all so far.
+constexpr std::size_t kFirstBatch = 64;  // Number of places; each further batch is half of all so
+                                         // far.
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 class Roadmap {
@@ -144,7 +145,7 @@ class Roadmap {
 
   /// The edges from the start to a goal by A*; empty where there is no path.
   ///
-  /// @param proven_only  takes no other edges, and ends at the place nearest to a goal
+  /// @param proven_only  uses proven edges alone, and ends at the place nearest to a goal
   [[nodiscard]] std::vector<std::size_t> shortest_path(bool proven_only) const {
     std::vector<double> cost(places_.size(), std::numeric_limits<double>::infinity());
     std::vector<std::size_t> by(places_.size(), kNone);

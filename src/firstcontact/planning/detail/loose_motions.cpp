@@ -6,7 +6,8 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kLoose = 0.1;  // [-]  Mean change of gaps, of that of the stiffest motion.
+constexpr double kLoose = 0.1;  // [-]  Mean change of gaps, relative to that of the stiffest
+                                // motion.
 
 /// Adds J^T n of one member of a contact.
 void add(const MovedMember& member, const NearContact& contact, double sign, Eigen::VectorXd& row) {

@@ -1,5 +1,5 @@
 /// @file
-/// The motions that contacts at a place hold back least.
+/// The motions that the contacts at a place hold back least.
 
 #pragma once
 
@@ -12,14 +12,14 @@
 
 namespace firstcontact::detail {
 
-/// Motions that bring no contact nearer nor farther, to first order, the loosest first.
+/// Finds motions that bring no contact nearer nor farther, to first order, the loosest first.
 ///
-/// A contact i changes by J_i dq. Sought are the dq of length 1 for which the sum of (J_i dq)^2 is
-/// least: its eigenvectors of small eigenvalues. So the contacts of a peg give its hole's axis, and
-/// those of a nut the screw of its thread, with the pitch.
+/// A contact i changes by J_i dq. The motions are the dq of length 1 for which the sum of (J_i
+/// dq)^2 is least: its eigenvectors of small eigenvalues. So the contacts of a peg give its hole's
+/// axis. Those of a nut give the screw of its thread, with the pitch.
 ///
 /// @param at  with at least one contact
-/// @return of length 1 in the metric of the space; each may be turned round
+/// @returns motions of length 1 in the metric of the space; each sense is possible
 [[nodiscard]] std::vector<Eigen::VectorXd> loose_motions(const TangentSpace& tangents,
                                                          const ContactsAt& at);
 

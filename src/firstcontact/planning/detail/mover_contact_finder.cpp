@@ -17,10 +17,10 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kMostContacts = 48;
-constexpr std::size_t kTriangles = 600;  // Of the mover that are looked at, where it has many more.
+constexpr std::size_t kTriangles = 600;  // Most triangles of the mover that are used.
 constexpr double kAlike = 0.05;          // [-]  Contacts whose rows differ by less are one.
-constexpr double kBeside = 0.02;      // [-]  Of the reach of the mover: contacts so near are one.
-constexpr double kDifference = 1e-6;  // [rad or m]  Of a coordinate, for its Jacobian.
+constexpr double kBeside = 0.02;  // [-]  Part of the reach of the mover; contacts so near are one.
+constexpr double kDifference = 1e-6;  // [rad or m]  Step of a coordinate for its Jacobian.
 
 Pose pose_of_geometry(const Pose& X_WM, const Pose& X_MG) {
   const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
@@ -45,7 +45,7 @@ Shape thinned(const Shape& shape) {
   return Shape(std::move(few), shape.radius());
 }
 
-/// [m]  Of the balls around two shapes.
+/// [m]  The gap of the balls around two shapes.
 double gap_of_balls(const PlacedShape& A, const PlacedShape& B) {
   const auto centre = [](const PlacedShape& S) -> Eigen::Vector3d {
     return S.pose().position + S.pose().rotation.normalized() * S.shape().hierarchy().centre;
@@ -54,7 +54,7 @@ double gap_of_balls(const PlacedShape& A, const PlacedShape& B) {
          B.shape().hierarchy().radius - B.shape().radius();
 }
 
-/// The normal and the place of a contact as one number of each kind, so that contacts compare.
+/// The normal and the place of a contact as comparable numbers.
 Eigen::Matrix<double, 6, 1> row_of(const NearContact& contact, const Eigen::Vector3d& centre,
                                    double reach) {
   Eigen::Matrix<double, 6, 1> row;
@@ -62,7 +62,7 @@ Eigen::Matrix<double, 6, 1> row_of(const NearContact& contact, const Eigen::Vect
   return row;
 }
 
-/// Sorts contacts, and leaves the nearest of those that constrain alike.
+/// Sorts contacts, and keeps the nearest of those that constrain alike.
 void keep_different(std::vector<NearContact>& contacts, const Eigen::Vector3d& centre,
                     double reach) {
   std::stable_sort(contacts.begin(), contacts.end(),

@@ -23,32 +23,35 @@ namespace firstcontact::detail {
 /// Two points that are near each other.
 struct NearContact {
   BodyPair members = {};
-  Eigen::Vector3d p_WP = Eigen::Vector3d::Zero();     ///< [m]  Between them.
+  Eigen::Vector3d p_WP = Eigen::Vector3d::Zero();     ///< [m]  Point between the two.
   Eigen::Vector3d n_AB_W = Eigen::Vector3d::UnitX();  ///< [-]
-  double gap = 0.0;  ///< [m]  To what a search of edges calls blocked.
+  double gap = 0.0;  ///< [m]  Distance beyond the one that a search of edges calls blocked.
 };
 
-/// The contacts at a place, with what moves there.
+/// The contacts at a place, with the members that move there.
 struct ContactsAt {
   std::vector<MovedMember> members;   ///< One for each member of the scene.
-  std::vector<NearContact> contacts;  ///< The nearest first; those that are much alike once.
+  std::vector<NearContact> contacts;  ///< The nearest first; contacts that are much alike appear
+                                      ///< once.
 };
 
-/// Finds what is near a mover. For one thread; refers to the scene.
+/// Finds the contacts near a mover. For one thread; refers to the scene.
 ///
 /// Where the mover has very many triangles, some of them stand for all: contacts only steer.
 class MoverContactFinder {
  public:
-  /// @param kept  [m]  what edges keep beyond the margins
+  /// @param kept  [m]  distance that edges keep beyond the margins
   MoverContactFinder(const PlanScene& scene, const TangentSpace& tangents, double kept);
 
-  /// @param band  [m]  nothing that is farther is of interest
+  /// Finds the contacts at a place.
+  ///
+  /// @param band  [m]  contacts that are farther are of no interest
   [[nodiscard]] ContactsAt near(const Configuration& q, double band);
 
  private:
   struct Pair {
     BodyPair members = {};
-    double margin = 0.0;  // [m]  With what edges keep.
+    double margin = 0.0;  // [m]  Margin with the distance that edges keep.
   };
 
   [[nodiscard]] std::vector<MovedMember> members_at(const Configuration& q);
@@ -61,9 +64,9 @@ class MoverContactFinder {
   const TangentSpace& tangents_;
   std::vector<Pair> pairs_;
   std::vector<bool> moves_;
-  std::vector<std::vector<Shape>> moved_;          // Of members that move; thinned out.
-  std::vector<std::vector<PlacedShape>> resting_;  // Of members that do not move.
-  std::optional<RobotScene> posed_;                // Of a robot with joints.
+  std::vector<std::vector<Shape>> moved_;          // Shapes of members that move; thinned out.
+  std::vector<std::vector<PlacedShape>> resting_;  // Shapes of members that do not move.
+  std::optional<RobotScene> posed_;                // Only for a robot with joints.
   Workspace workspace_;
   std::vector<Contact> contacts_;
 };

@@ -14,10 +14,10 @@
 
 namespace firstcontact::detail {
 
-/// Small trees that begin at tight places. Edges lead both ways.
+/// Small trees that begin at tight places. Their edges lead both ways.
 class PassageTrees {
  public:
-  /// A node of one of them.
+  /// A node of one of the trees.
   struct Node {
     std::size_t passage = 0;
     std::size_t node = 0;
@@ -34,16 +34,18 @@ class PassageTrees {
   [[nodiscard]] std::optional<std::size_t> owner(std::size_t passage) const {
     return passages_[passage].owner;
   }
-  /// The node of the owner that a node has become.
+  /// The node of the owner at the place of a node.
   [[nodiscard]] std::size_t in_owner(const Node& at) const {
     return passages_[at.passage].in_owner[at.node];
   }
 
-  /// [-]  By the length of the space; infinite without a passage.
+  /// [-]  The distance of a place from the passages, by the length of the space; infinite without
+  /// any.
   [[nodiscard]] double distance(const ConfigurationSpace& space, const Configuration& q) const;
 
-  /// A node for a tree to go to, of a passage that it does not have: of a random passage, or the
-  /// nearest to a place.
+  /// A node of a passage that a tree does not have, as a target for it.
+  ///
+  /// The passage is random, or the nearest to a place.
   [[nodiscard]] std::optional<Node> draw(const ConfigurationSpace& space, std::size_t tree,
                                          const Configuration& near, RandomNumbers& random) const;
 

@@ -30,7 +30,7 @@ std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const st
   return *link;
 }
 
-/// Adds the coordinates of the joints that move a link; what they mimic in place of others.
+/// Adds the coordinates of the joints that move a link; for mimic joints those that they mimic.
 ///
 /// Floating and ball joints have none: they rest.
 void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
@@ -46,7 +46,7 @@ void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointC
   }
 }
 
-/// Refuses a position of a joint that mimics a planned one where it contradicts that one's.
+/// Refuses a position of a mimic joint that contradicts the planned joint.
 void require_mimicked(const ConfigurationSpace& space, const Configuration& goal, std::size_t mover,
                       std::size_t joint, double position) {
   const RobotModel& model = space.model(mover);
@@ -74,7 +74,7 @@ void require_mimicked(const ConfigurationSpace& space, const Configuration& goal
 
 /// Adds free places of the joints at which a link is at its pose.
 ///
-/// @returns  one sentence where there is none
+/// @returns a sentence where there is none
 std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& scene,
                                          const LinkGoal& wanted, const Configuration& start,
                                          ReachOptions options, std::vector<Configuration>& goals) {
@@ -87,11 +87,11 @@ std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& sce
                           .position_tolerance = wanted.position_tolerance,
                           .rotation_tolerance = wanted.rotation_tolerance};
   const EdgeCheckOptions defaults;
-  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As the search.
+  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As in the search.
   std::optional<EdgeChecker> checker;
   std::size_t count_blocked = 0;
-  std::optional<Configuration> blocked;  // The first.
-  if (!plan.times) {  // Else whether they are free depends on the time: the search finds out.
+  std::optional<Configuration> blocked;  // The first one.
+  if (!plan.times) {                     // With times the search decides which places are free.
     const ContactEnds contacts(plan, start, {}, kept, tolerance);
     checker.emplace(plan, EdgeCheckOptions{.tolerance = tolerance,
                                            .extra_clearance = kept,
@@ -233,7 +233,7 @@ void ignore_what_rests(const PlanScene& plan, Scene& scene) {
          std::any_of(scene.robots.begin(), scene.robots.end(), is_taken)) {
     group.name += " here";
   }
-  // A body that is planned is a robot of its own in the plan, with one link.
+  // In the plan a planned body is a robot of its own, with one link.
   for (std::size_t member = 0; member < moved.size(); ++member) {
     if (!moved[member]) {
       group.bodies.push_back(member);

@@ -1,5 +1,5 @@
 /// @file
-/// The goals of a plan of a robot, and what its path leaves out.
+/// The goals of a plan of a robot, and the pairs that its path leaves out.
 
 #pragma once
 
@@ -13,8 +13,9 @@
 
 namespace firstcontact::detail {
 
-/// The joints that the question or a goal names, for each robot of the question. They have the
-/// names of the robot; joints that mimic others are left out.
+/// The joints that the question or a goal names, for each robot of the question.
+///
+/// They have the names of the robot. Joints that mimic others are left out.
 [[nodiscard]] std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
                                                                    const PlanQuestion& question);
 
@@ -26,14 +27,15 @@ namespace firstcontact::detail {
                                     const ConfigurationSpace& space,
                                     const JointPositions& positions, const Configuration& start);
 
-/// Adds the goals that are poses of links. One that is out of reach is a warning where others are
-/// left.
+/// Adds the goals that are poses of links.
+///
+/// A goal that is out of reach is a warning where others are left.
 ///
 /// @throws std::invalid_argument if no goal is left
 void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const Configuration& start,
                     LoadedScene& loaded, std::vector<Configuration>& goals);
 
-/// Leaves out the pairs that no edge moves, so that every check of the path's scene does.
+/// Ignores the pairs that no edge moves, in the scene that the path file has.
 void ignore_what_rests(const PlanScene& plan, Scene& scene);
 
 }  // namespace firstcontact::detail

@@ -79,7 +79,7 @@ class PlanInTime {
     return options_.stop.stop_requested() || seconds() > options_.time;
   }
 
-  /// A goal has to be near enough for the speeds.
+  /// Refuses goals that are all too far for the speeds.
   void require_time(const Configuration& start, const std::vector<Configuration>& goals) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Configuration& goal : goals) {
@@ -106,7 +106,7 @@ class PlanInTime {
     throw std::invalid_argument(describe_pair(test, place.q, *found.pair, text));
   }
 
-  /// False where the search was stopped.
+  /// Requires that the start and a goal are free. False where the search was stopped.
   bool require_free(const Configuration& start, const std::vector<Configuration>& goals) {
     const TimedPlace first{start, 0.0};
     if (const EdgeFound found = edges_.at(first); found.verdict != Verdict::free) {

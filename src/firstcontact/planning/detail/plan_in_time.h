@@ -1,5 +1,5 @@
 /// @file
-/// Plans among surroundings that move.
+/// Plans in an environment that moves.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// plan_path() of a scene with `times`.
+/// Plans a path as plan_path() does, for a scene with `times`.
 [[nodiscard]] PlanResult plan_in_time(const PlanScene& scene, const Configuration& start,
                                       const std::vector<Configuration>& goals, double range,
                                       const PlanOptions& options);

@@ -5,7 +5,7 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
+constexpr double kShareOfRange = 0.2;  // [-]  Part of the mean distance of samples.
 constexpr int kSamplesOfRange = 64;
 
 }  // namespace

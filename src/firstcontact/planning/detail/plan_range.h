@@ -1,5 +1,5 @@
 /// @file
-/// How long the edges of trees are where nobody chose it.
+/// The default length of the edges of trees.
 
 #pragma once
 
@@ -7,8 +7,9 @@
 
 namespace firstcontact::detail {
 
-/// The longest edge of a tree: a share of the mean distance of random places, in the length of the
-/// space.
+/// The longest edge of a tree by default, in the length of the space.
+///
+/// It is a share of the mean distance of random places.
 [[nodiscard]] double default_range(const ConfigurationSpace& space);
 
 }  // namespace firstcontact::detail

@@ -21,7 +21,7 @@ class PlanTree {
 
   /// Adds a place and returns its number.
   ///
-  /// @param is_found  whether nearest() may give it; else it only leads on to others
+  /// @param is_found  whether nearest() may return it; else it only leads on to others
   std::size_t add(Configuration q, std::size_t parent, bool is_found = true) {
     places_.push_back(std::move(q));
     parents_.push_back(parent);
@@ -32,21 +32,21 @@ class PlanTree {
     return places_.size() - 1;
   }
 
-  /// Lets nearest() give a place that it did not.
+  /// Lets nearest() return a place that it did not.
   void show(std::size_t node) { found_.push_back(node); }
 
   /// Marks a place as one from which to move in contact.
   void mark(std::size_t node) { marked_.push_back(node); }
 
-  /// How far samples may be that a place is extended towards; infinite at first.
+  /// The greatest distance of samples towards which a place is extended; infinite at first.
   [[nodiscard]] double domain(std::size_t node) const { return domains_[node]; }
   void set_domain(std::size_t node, double domain) { domains_[node] = domain; }
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
-  /// kNoParent of a root; else less than the node.
+  /// The parent of a node; kNoParent of a root, else less than the node.
   [[nodiscard]] std::size_t parent(std::size_t node) const { return parents_[node]; }
   [[nodiscard]] const Configuration& operator[](std::size_t node) const { return places_[node]; }
-  /// In the order in which they were marked.
+  /// The marked places, in the order in which they were marked.
   [[nodiscard]] const std::vector<std::size_t>& marked() const { return marked_; }
 
   [[nodiscard]] std::size_t nearest(const Configuration& q) const {
@@ -62,7 +62,7 @@ class PlanTree {
     return best;
   }
 
-  /// From a node to its root.
+  /// The places from a node to its root.
   [[nodiscard]] std::vector<Configuration> to_root(std::size_t node) const {
     std::vector<Configuration> places;
     for (; node != kNoParent; node = parents_[node]) {

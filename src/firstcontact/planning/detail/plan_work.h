@@ -20,7 +20,7 @@ class PlanWork {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param hasty  of the same scene, with less effort: it checks outside of thoroughly()
+  /// @param hasty  a checker of the same scene with less effort, for checks outside of thoroughly()
   PlanWork(const EdgeChecker& checker, const EdgeChecker& hasty, const PlanOptions& options,
            Clock::time_point begin, Clock::time_point end)
       : checker_(checker),
@@ -36,18 +36,18 @@ class PlanWork {
   [[nodiscard]] const ConfigurationSpace& space() const { return checker_.space(); }
   [[nodiscard]] const PlanOptions& options() const { return options_; }
   [[nodiscard]] const PlanScene& scene() const { return checker_.scene(); }
-  /// [m]  What is nearer than its margin and this may count as blocked.
+  /// [m]  Distance beyond the margin within which a pair may count as blocked.
   [[nodiscard]] double kept() const {
     return checker_.options().extra_clearance + checker_.options().tolerance;
   }
 
-  /// With the fraction that is free.
+  /// Checks an edge, with the fraction that is free.
   EdgeAnswer check(const Configuration& from, const Configuration& to);
-  /// Whether the whole edge is free, which is quicker to know.
+  /// Whether the whole edge is free, which takes less work.
   bool is_free(const Configuration& from, const Configuration& to);
   bool is_free(const Configuration& q);
 
-  /// Does something with all the effort that checks may take.
+  /// Calls `call` with all the effort that checks may take.
   template <class Call>
   auto thoroughly(const Call& call) {
     struct Restore {
@@ -64,7 +64,7 @@ class PlanWork {
   [[nodiscard]] double seconds() const;
   void report(std::size_t nodes, const std::optional<double>& cost);
 
-  /// With the pairs that blocked.
+  /// The statistics, with the pairs that blocked.
   [[nodiscard]] PlanStatistics statistics() const;
   PlanStatistics& counts() { return counts_; }
 
@@ -73,7 +73,7 @@ class PlanWork {
 
   const EdgeChecker& checker_;
   const EdgeChecker& hasty_;
-  const EdgeChecker* now_;  // One of these.
+  const EdgeChecker* now_;  // One of these two.
   const PlanOptions& options_;
   Clock::time_point begin_;
   Clock::time_point end_;

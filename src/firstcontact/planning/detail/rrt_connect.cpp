@@ -14,11 +14,14 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kTriesToLeave = 8;   // Iterations before pushes, and before a tree is stuck.
-constexpr std::size_t kReportEvery = 256;  // Iterations.
+constexpr std::size_t kTriesToLeave = 8;   // Number of iterations before pushes, and before a tree
+                                           // is stuck.
+constexpr std::size_t kReportEvery = 256;  // Number of iterations.
 
-/// [-]  The domain of a place with a blocked edge, in ranges. One that is shorter than the default
-/// does not shorten it: few samples would count, and each costs a search for the nearest place.
+/// [-]  The domain of a place with a blocked edge, in ranges.
+///
+/// A range below the default does not shorten it. Few samples would then count, and each costs a
+/// search for the nearest place.
 constexpr double kDomain = 3.0;
 
 class Connect {
@@ -65,7 +68,7 @@ class Connect {
       if (const auto met = reach_passage(grows, random)) {
         return joined(*met);
       }
-      // The lesser tree grows next: M. Kuffner's balance.
+      // The smaller tree grows next: J. Kuffner's balance.
       grows = trees_[0].size() <= trees_[1].size() ? 0 : 1;
     }
     return nearest_to(goals);
@@ -77,7 +80,7 @@ class Connect {
   /// The nodes of both trees at which they met.
   using Meeting = std::array<std::size_t, 2>;
 
-  /// Extends a tree towards a sample, then the other one towards what was added.
+  /// Extends a tree towards a sample, then the other one towards the added node.
   std::optional<Meeting> grow(std::size_t grows, const Configuration& sample) {
     PlanTree& tree = trees_[grows];
     const std::size_t near = tree.nearest(sample);
@@ -97,10 +100,10 @@ class Connect {
     return std::nullopt;
   }
 
-  /// Narrows the domain of a place with a blocked edge. Places beside obstacles are the nearest to
-  /// many samples behind these, which lead nowhere.
+  /// Narrows the domain of a place with a blocked edge.
   ///
-  /// In contact a blocked edge is of use: then domains stay as they are.
+  /// Places beside obstacles are the nearest to many samples behind these, which lead nowhere. With
+  /// contacts a blocked edge is useful, so domains stay as they are.
   ///
   /// Source: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle, "Dynamic-domain RRTs: efficient
   /// exploration by controlling the sampling domain", ICRA 2005.
@@ -110,8 +113,10 @@ class Connect {
     }
   }
 
-  /// Pushes out of the contacts of the places where a tree begins, as an assembly is taken apart,
-  /// until one is out of contact. Extends the other tree towards each end.
+  /// Pushes out of the contacts at the roots of a tree, as an assembly is taken apart, until one is
+  /// out of contact.
+  ///
+  /// It extends the other tree towards each end.
   std::optional<Meeting> leave(std::size_t grows) {
     PlanTree& tree = trees_[grows];
     for (std::size_t root = 0; root < roots_[grows] && !work_.is_over(); ++root) {
@@ -144,7 +149,7 @@ class Connect {
     return end ? meet(grows, *end) : std::nullopt;
   }
 
-  /// Extends a tree to a passage, and takes it over; meets the other tree if that has it already.
+  /// Extends a tree to a passage and takes it over, or meets the other tree if that has it already.
   std::optional<Meeting> reach_passage(std::size_t grows, RandomNumbers& random) {
     PlanTree& tree = trees_[grows];
     const auto passage = contact_.passage(grows, tree[tree.size() - 1], random);
@@ -172,7 +177,7 @@ class Connect {
     return grows == 0 ? Meeting{*reached, other} : Meeting{other, *reached};
   }
 
-  /// Extends the other tree towards a node of one.
+  /// Extends the other tree towards a node of this one.
   std::optional<Meeting> meet(std::size_t grows, std::size_t node) {
     PlanTree& other = trees_[1 - grows];
     const Configuration target = trees_[grows][node];
@@ -183,13 +188,14 @@ class Connect {
     return grows == 0 ? Meeting{node, *met} : Meeting{*met, node};
   }
 
-  /// Grows a tree from a node towards a target as far as it is free. The node at the target.
+  /// Grows a tree from a node towards a target as far as the way is free; returns the node at the
+  /// target.
   std::optional<std::size_t> connect(std::size_t grows, std::size_t node,
                                      const Configuration& target) {
     PlanTree& tree = trees_[grows];
     const Configuration from = tree[node];
     const double length = work_.space().distance(from, target);
-    // Most edges are blocked in their first step, which is quick to know.
+    // Most edges are blocked in their first step, whose check takes less work.
     const Configuration first =
         length > range_ ? work_.space().interpolate(from, target, range_ / length) : target;
     std::size_t last = node;
@@ -243,7 +249,7 @@ class Connect {
   double domain_;
   std::array<PlanTree, 2> trees_;
   std::array<std::size_t, 2> roots_ = {};
-  std::array<std::size_t, 2> pushed_ = {};  // Nodes of pushes from roots.
+  std::array<std::size_t, 2> pushed_ = {};  // Number of pushes from the roots of each tree.
   ContactGrowth contact_;
 };
 

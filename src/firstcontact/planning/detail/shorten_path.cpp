@@ -7,9 +7,9 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kWorthwhile = 1e-4;  // [-]  Share of the cost of a stretch that is to be saved.
-/// Tries in a row that have not helped, and as a share of all: then the path is as short as it
-/// gets.
+constexpr double kWorthwhile = 1e-4;  // [-]  Part of the cost of a stretch that a replacement is to
+                                      // save.
+/// Tries in a row without gain, also as a share of all, after which the path counts as short.
 constexpr std::size_t kLongestWait = 25;
 constexpr std::size_t kTriesOfWait = 4;
 
@@ -32,7 +32,7 @@ class Shortcuts {
   }
 
  private:
-  /// A place of an edge of the path, and the number of that edge.
+  /// A place on an edge of the path, and the number of that edge.
   struct OnPath {
     std::size_t edge = 0;
     Configuration q;
@@ -53,7 +53,7 @@ class Shortcuts {
     return cost_of(work_.space(), places);
   }
 
-  /// Leads from each place to a far one that it sees: halves the way ahead until it sees one.
+  /// Leads from each place straight to a far one: halves the way ahead until the edge is free.
   void skip_places() {
     for (std::size_t from = 0; from + 2 < path_.size(); ++from) {
       for (std::size_t to = path_.size() - 1; to > from + 1 && !work_.is_over();
@@ -71,7 +71,7 @@ class Shortcuts {
 
   static std::ptrdiff_t at(std::size_t k) { return static_cast<std::ptrdiff_t>(k); }
 
-  /// Two places on different edges, the earlier one first; evenly along the path.
+  /// Draws two places on different edges, the earlier one first; evenly along the path.
   bool draw(RandomNumbers& random, OnPath& first, OnPath& second) const {
     double a = random.uniform();
     double b = random.uniform();
@@ -101,9 +101,9 @@ class Shortcuts {
     return {path_.begin() + at(first.edge), path_.begin() + at(second.edge + 2)};
   }
 
-  /// Takes a stretch in, if that is shorter and its edges within it are free.
+  /// Takes a stretch into the path, if it is shorter and its inner edges are free.
   ///
-  /// @param proven  the first and the last edge are pieces of edges of the path
+  /// @param proven  whether the first and the last edge are parts of edges of the path
   bool take(const OnPath& first, const OnPath& second, std::vector<Configuration> places) {
     const std::vector<Configuration> before = stretch_of(first, second);
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -134,7 +134,7 @@ class Shortcuts {
     return take(first, second, {before, first.q, second.q, behind});
   }
 
-  /// Leads one coordinate straight from one place to another; the others stay as they are.
+  /// Leads one coordinate straight from one place to another; the others keep their way.
   bool cut_coordinate(RandomNumbers& random) {
     OnPath first;
     OnPath second;

@@ -14,13 +14,14 @@ namespace firstcontact::detail {
 
 /// Replaces stretches of a path by edges that are shorter and proven.
 ///
-/// First places that can be skipped; then stretches between two random places of edges, whole or in
-/// one coordinate of joints only. The ends stay, bit for bit, and the cost never grows. Ends early
-/// when many tries in a row have not helped.
+/// First it skips places. Then it replaces stretches between two random places of edges, whole or
+/// in one coordinate of joints only. The ends stay, bit for bit, and the cost never grows. It ends
+/// early when many tries in a row have not helped.
 ///
-/// R. Geraerts, M. Overmars, "Creating high-quality paths for motion planning", IJRR 26 (2007).
+/// Source: R. Geraerts, M. Overmars, "Creating high-quality paths for motion planning", IJRR 26
+/// (2007).
 ///
-/// @param tries  at most so many edges are tried in place of others
+/// @param tries  the most edges that are tried in place of others
 void shorten_path(PlanWork& work, std::vector<Configuration>& path, std::size_t tries,
                   RandomNumbers& random);
 

@@ -12,18 +12,20 @@
 
 namespace firstcontact::detail {
 
-/// So often a way is doubled: from micrometres to metres.
+/// Number of times that a way is doubled: from micrometres to metres.
 inline constexpr int kWayDoublings = 24;
 
-/// Unit vectors of ways from a place: along the axes of the world and of the body, or along each
-/// joint; then some in random directions.
+/// Unit vectors of ways from a place.
 ///
-/// @returns  of a body 3 numbers, as it does not turn; else as many as the space has
+/// They are along the axes of the world and of the body, or along each joint; then some in random
+/// directions.
+///
+/// @returns 3 numbers for a body, as it does not turn; else as many as the space has
 [[nodiscard]] std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space,
                                                          const Configuration& q,
                                                          RandomNumbers& random);
 
-/// The place behind a way. The place itself where a body would leave its box.
+/// The place at the end of a way; the place itself where a body would leave its box.
 ///
 /// @param way  [m, or rad and m alike]
 [[nodiscard]] Configuration behind_way(const ConfigurationSpace& space, const Configuration& q,

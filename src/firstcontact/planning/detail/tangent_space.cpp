@@ -19,8 +19,9 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kNearScrew = 0.05;   // [-]  What a motion may depart from a screw about an axis.
-constexpr double kLeastReach = 1e-3;  // [-]  Of a length of the scene.
+constexpr double kNearScrew = 0.05;  // [-]  Most by which a motion may depart from a screw about an
+                                     // axis.
+constexpr double kLeastReach = 1e-3;  // [-]  Part of a length of the scene.
 
 Eigen::Vector3d place_of(const Configuration& q) { return {q[0], q[1], q[2]}; }
 
@@ -35,16 +36,16 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& rotation) {
   return (rotation.w() < 0.0 ? -factor : factor) * rotation.vec();
 }
 
-/// [m]  How far a geometry is from the middle of its core, with its thickness.
+/// [m]  The radius of a geometry about the middle of its core, with its thickness.
 double radius_of(const Shape& shape) { return shape.hierarchy().radius + shape.radius(); }
 
-/// [m]  How far a geometry of a member is from the origin of the member's frame.
+/// [m]  The distance of a geometry's farthest point from the origin of the member's frame.
 double reach_of(const MemberGeometry& geometry) {
   return geometry.X_MG.position.norm() + geometry.shape.hierarchy().centre.norm() +
          radius_of(geometry.shape);
 }
 
-/// The joint that has the coordinates of a joint: itself, or the one that it mimics.
+/// The joint whose coordinates a joint has: itself, or the one that it mimics.
 std::size_t leading_joint(const RobotModel& model, std::size_t joint) {
   while (const std::optional<Mimic>& mimic = model.joints()[joint].mimic) {
     joint = model.find_joint(mimic->joint).value();
@@ -52,15 +53,16 @@ std::size_t leading_joint(const RobotModel& model, std::size_t joint) {
   return joint;
 }
 
-/// The reaches of a mover that is a robot. They are lengths of its chains, so that they are the
-/// same wherever it starts.
+/// The reach of a mover that is a robot.
+///
+/// It is a length of the robot's chains, so that it is the same wherever the robot starts.
 class RobotReach {
  public:
   RobotReach(const PlanScene& scene, std::size_t mover)
       : scene_(scene), mover_(mover), model_(scene.space.model(mover)) {}
 
-  /// [m]  From where planned joints turn geometries to what these reach; where joints only slide a
-  /// geometry, the radius of the ball around it.
+  /// [m]  The distance that planned joints turn geometries at; where joints only slide a geometry,
+  /// its radius.
   [[nodiscard]] double reach() const {
     const std::size_t robot = scene_.robots[mover_];
     double reach = 0.0;
@@ -92,8 +94,9 @@ class RobotReach {
   }
 
   struct Lever {
-    bool moves = false;  // By planned joints.
-    /// [m]  From the first joint that turns a link to the link's frame; none where no joint does.
+    bool moves = false;  // Whether planned joints move the link.
+    /// [m]  Length from the first joint that turns a link to the link's frame; none where no joint
+    /// does.
     std::optional<double> turned = {};
   };
 
@@ -126,8 +129,8 @@ class RobotReach {
 
 /// [m]  The least reach of a mover: a point has none, and all steps are shares of it.
 ///
-/// A share of the greatest radius of a body or link, but of no more than the room in which the
-/// mover is planned.
+/// It is a share of the greatest radius of a body or link, but of no more than the room in which
+/// the mover is planned.
 double least_reach(const PlanScene& scene) {
   double length = 0.0;
   for (std::size_t member = 0; member < scene.scene.size(); ++member) {
@@ -156,7 +159,7 @@ TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
     inverse_metric_.tail<3>().setConstant(1.0 / (reach_ * reach_));
     return;
   }
-  std::vector<double> reaches;  // Of each mover.
+  std::vector<double> reaches;  // The reach of each mover.
   for (std::size_t mover = 0; mover < scene.robots.size(); ++mover) {
     reaches.push_back(std::max(RobotReach(scene, mover).reach(), least));
     reach_ = std::max(reach_, reaches.back());
@@ -246,7 +249,7 @@ std::optional<Eigen::VectorXd> TangentSpace::about_an_axis(const Eigen::VectorXd
     return std::nullopt;
   }
   const Eigen::Vector3d w = in_body.tail<3>();
-  const Eigen::Vector3d v = in_body.head<3>() - w.cross(p_BC_);  // Of the origin.
+  const Eigen::Vector3d v = in_body.head<3>() - w.cross(p_BC_);  // Velocity of the origin.
   const bool turns = reach_ * w.norm() > kNearScrew * v.norm();
   const Eigen::Vector3d& way = turns ? w : v;
   Eigen::Index axis = 0;
@@ -271,7 +274,8 @@ std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
     return std::nullopt;
   }
   const Eigen::Vector3d turn = screw->tail<3>();
-  const Eigen::Vector3d slide = screw->head<3>() - turn.cross(p_BC_);  // Of the origin.
+  // Velocity of the origin.
+  const Eigen::Vector3d slide = screw->head<3>() - turn.cross(p_BC_);
   const Eigen::Quaterniond begin = turn_of(q);
   const Eigen::Vector3d place = place_of(q) + begin * slide;
   const Eigen::Quaterniond end =

@@ -14,10 +14,12 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kRestNodes = 16;  // Times at which a goal is a node, while it is free.
-constexpr int kMostSteps = 32;          // Of a tree towards a node of the other one.
+constexpr std::size_t kRestNodes = 16;  // Number of times at which a goal is a node, while it is
+                                        // free.
+constexpr int kMostSteps = 32;          // Most steps of a tree towards a node of the other one.
 
-/// Places, each with a proven edge from or to its parent; times go on in one direction.
+/// Places, each with a proven edge from or to its parent; times increase or decrease along a
+/// branch.
 class TimedTree {
  public:
   TimedTree(const TimedEdges& edges, bool is_forward) : edges_(edges), is_forward_(is_forward) {}
@@ -31,17 +33,17 @@ class TimedTree {
   [[nodiscard]] std::size_t size() const { return places_.size(); }
   [[nodiscard]] const TimedPlace& operator[](std::size_t node) const { return places_[node]; }
 
-  /// [s]  From a node on in the tree's direction; negative against it.
+  /// [s]  The time from a node to a place in the tree's direction; negative against it.
   [[nodiscard]] double time_from(const TimedPlace& node, const TimedPlace& to) const {
     return is_forward_ ? to.t - node.t : node.t - to.t;
   }
 
-  /// The time some seconds on from a node in the tree's direction.
+  /// [s]  The time `seconds` after a node in the tree's direction.
   [[nodiscard]] double time_on(const TimedPlace& node, double seconds) const {
     return is_forward_ ? node.t + seconds : node.t - seconds;
   }
 
-  /// The node that is nearest in the space, of those on the right side in time.
+  /// The nearest node in the space that is on the right side in time.
   [[nodiscard]] std::optional<std::size_t> nearest(const TimedPlace& to) const {
     std::optional<std::size_t> best;
     double least = std::numeric_limits<double>::infinity();
@@ -58,7 +60,7 @@ class TimedTree {
     return best;
   }
 
-  /// The node from which one edge at the allowed speeds gets there, with the least time between.
+  /// The node with the least time to a place that one edge at the allowed speeds reaches.
   [[nodiscard]] std::optional<std::size_t> latest(const TimedPlace& to) const {
     std::optional<std::size_t> best;
     double least = std::numeric_limits<double>::infinity();
@@ -111,7 +113,7 @@ class TimedConnect {
   }
 
  private:
-  /// A goal at the end, and at earlier times from which it is free until then.
+  /// Adds a goal at the end, and at earlier times from which it is free until then.
   void add_rests(const Configuration& goal) {
     const double duration = edges_.duration();
     const TimedPlace end{goal, duration};
@@ -129,7 +131,7 @@ class TimedConnect {
     }
   }
 
-  /// The start may see a goal.
+  /// Whether an edge leads from the start to a goal.
   std::optional<std::array<std::size_t, 2>> meet_at_once() {
     for (std::size_t node = trees_[1].size(); node-- > 0;) {
       if (edges_.is_free(trees_[0][0], trees_[1][node])) {
@@ -143,7 +145,7 @@ class TimedConnect {
     return tree == 0 ? edges_.is_free(node, next) : edges_.is_free(next, node);
   }
 
-  /// The place towards another one that is no farther than the range and keeps the speeds.
+  /// The place on the way to another one that is within the range and keeps the speeds.
   [[nodiscard]] TimedPlace towards(const TimedTree& tree, const TimedPlace& from,
                                    const TimedPlace& to) const {
     const double time = tree.time_from(from, to);
@@ -156,7 +158,7 @@ class TimedConnect {
     return {edges_.space().interpolate(from.q, to.q, share), tree.time_on(from, share * pace)};
   }
 
-  /// Extends a tree towards a sample, and the other one towards what was added.
+  /// Extends a tree towards a sample, and the other one towards the added node.
   std::optional<std::array<std::size_t, 2>> grow(std::size_t grows, const TimedPlace& sample) {
     TimedTree& tree = trees_[grows];
     const std::optional<std::size_t> near = tree.nearest(sample);
@@ -174,7 +176,7 @@ class TimedConnect {
     return std::nullopt;
   }
 
-  /// Grows a tree towards a place, edge by edge. The node there.
+  /// Grows a tree towards a place, edge by edge; returns the node there.
   std::optional<std::size_t> connect(std::size_t grows, const TimedPlace& target) {
     TimedTree& tree = trees_[grows];
     const std::optional<std::size_t> from = tree.latest(target);
@@ -235,7 +237,7 @@ void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
   for (std::size_t from = 0; from + 2 < path.size(); ++from) {
     for (std::size_t to = path.size() - 1; to > from + 1 && !is_over();
          to = from + (to - from) / 2) {
-      // The rest at the goal stays: what arrives early is done early.
+      // The rest at the goal stays, so that an early arrival ends the motion early.
       const bool keeps_rest = to + 1 < path.size() || path[from].q == end.q;
       if (keeps_rest && edges.is_free(path[from], path[to])) {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(from + 1),

@@ -15,19 +15,21 @@ class TimedEdges;
 
 /// Looks for a way from a start at time 0 to one of several goals, where it rests until the end.
 ///
-/// After F. Grothe, V. Hartmann, A. Orthey, M. Toussaint, "ST-RRT*: Asymptotically-optimal
-/// bidirectional motion planning through space-time", ICRA 2022, with a fixed horizon and without
-/// its optimisation: one tree grows from the start forward in time, one from the goals backward.
+/// One tree grows from the start forward in time, one from the goals backward.
+///
+/// Source: after F. Grothe, V. Hartmann, A. Orthey, M. Toussaint, "ST-RRT*: Asymptotically-optimal
+/// bidirectional motion planning through space-time", ICRA 2022. Here the horizon is fixed, and
+/// their optimisation is left out.
 ///
 /// @param range    [-]  the longest edge, in the length of the space
 /// @param is_over  whether to end without an answer
-/// @returns  places with times from 0 to the duration; empty where none was found
+/// @returns places with times from 0 to the duration; empty where none was found
 [[nodiscard]] std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
                                                     const std::vector<Configuration>& goals,
                                                     double range, RandomNumbers& random,
                                                     const std::function<bool()>& is_over);
 
-/// Leaves out places that an edge can pass by, and arrives as early as the rest allows.
+/// Leaves out places that an edge can pass by, and arrives as early as the other places allow.
 void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
                         const std::function<bool()>& is_over);
 

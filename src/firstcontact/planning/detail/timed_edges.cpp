@@ -9,7 +9,7 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kRounding = 1e-12;  // Relative; by which an edge may be faster than its speeds.
+constexpr double kRounding = 1e-12;  // [-]  Relative excess that rounding allows over the speeds.
 
 }  // namespace
 
@@ -18,7 +18,7 @@ TimedEdges::TimedEdges(const PlanScene& plan, const EdgeCheckOptions& options)
       search_(scene_of_edges(plan, options.extra_clearance), question_of_edges(options)) {}
 
 EdgeFound TimedEdges::ask(const TimedPlace& from, const TimedPlace& to) {
-  // As a check of the whole motion divides times, bit for bit.
+  // Times are divided as in a check of the whole motion, bit for bit.
   const std::array<double, 2> times{from.t / duration(), to.t / duration()};
   const bool is_place = !(times[0] < times[1]);
   const std::array<Configuration, 2> places{from.q, to.q};
@@ -38,7 +38,7 @@ EdgeFound TimedEdges::ask(const TimedPlace& from, const TimedPlace& to) {
 }
 
 bool TimedEdges::is_free(const TimedPlace& from, const TimedPlace& to) {
-  // Where the quotients are one, only a place would be asked for.
+  // Where the quotients are equal, only a place would be checked.
   const bool has_length = from.t / duration() < to.t / duration();
   return has_length && travel_time(from.q, to.q) <= (to.t - from.t) * (1.0 + kRounding) &&
          ask(from, to).verdict == Verdict::free;

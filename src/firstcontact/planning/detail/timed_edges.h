@@ -1,5 +1,5 @@
 /// @file
-/// Edges in space and time: of a mover among surroundings that move on known ways.
+/// Edges in space and time: for a mover in an environment that moves in a known way.
 
 #pragma once
 
@@ -30,7 +30,7 @@ class TimedEdges {
     return plan_.space.travel_time(from, to, plan_.times->speeds);
   }
 
-  /// Whether the speeds allow an edge, but for rounding, and it is proven free.
+  /// Whether the speeds allow an edge, up to rounding, and it is proven free.
   bool is_free(const TimedPlace& from, const TimedPlace& to);
 
   /// The answer about a place at its time.
