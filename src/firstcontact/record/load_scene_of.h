@@ -11,10 +11,10 @@ namespace firstcontact {
 class ShapeCache;
 struct RunHeader;
 
-/// Reads the meshes and robots that a run's scene names.
+/// Loads the scene of a run, with its meshes and robots.
 ///
-/// @throws std::invalid_argument if one of them is not what it was when the run was made: the
-///     digest of everything read differs from that of the header (which may be empty: unknown).
+/// @throws std::invalid_argument if a file has changed since the run was made: the digest of all
+///         files differs from that of the header. An empty digest there is unknown.
 /// @throws as load_scene
 [[nodiscard]] FIRSTCONTACT_API LoadedScene load_scene_of(const RunHeader& header,
                                                          ShapeCache& cache);

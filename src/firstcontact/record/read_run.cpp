@@ -21,17 +21,18 @@ namespace {
 
 using nlohmann::json;
 
-/// No place of a run is deeper in the brackets of its line.
+/// The deepest brackets of a line in which a place of a run is looked for.
 constexpr int kDeepest = 8;
 
-/// A key without its quotes, on one line whatever it holds.
+/// A key without its quotes, on one line whatever it contains.
 std::string printable(const std::string& key) {
   const std::string quoted = json(key).dump();
   return quoted.substr(1, quoted.size() - 2);
 }
 
-/// Where a value stands below the root: ".bodies[2].pieces"; nothing if it is not there. Searched
-/// for only when there is an error to tell.
+/// The place of a value below the root: ".bodies[2].pieces"; nothing if it is not there.
+///
+/// It is searched for only when there is an error to report.
 std::optional<std::string> place_of(const json& value, const json& root, int depth = 0) {
   if (&value == &root) {
     return "";
@@ -55,7 +56,7 @@ std::optional<std::string> place_of(const json& value, const json& root, int dep
   return std::nullopt;
 }
 
-/// Takes values out of one line, or says which place holds something else than expected.
+/// Takes values out of one line, or reports the place of an unexpected value.
 class Line {
  public:
   Line(const std::string& text, const std::string& path, std::size_t number)
@@ -69,7 +70,7 @@ class Line {
     throw ParseError(path_, number_, place + "expected " + expected);
   }
 
-  /// All of the keys, and no other but the one that may be there.
+  /// Requires all of the keys, and no others but the optional ones.
   void require_keys(const json& object, std::initializer_list<std::string_view> keys,
                     std::initializer_list<std::string_view> may_be = {}) const {
     if (!object.is_object()) {
@@ -117,7 +118,7 @@ class Line {
     return x;
   }
 
-  /// In [0, count).
+  /// An index in [0, count).
   [[nodiscard]] std::size_t index(const json& value, std::size_t count) const {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count) {
       fail(value, "an integer from 0 to " + std::to_string(count - 1));
@@ -132,7 +133,7 @@ class Line {
     return value.get<std::string>();
   }
 
-  /// From the elements `first` and following of a row of numbers.
+  /// The vector of the elements `first` and following of a row of numbers.
   [[nodiscard]] Eigen::Vector3d vector3(const json& row, std::size_t first) const {
     return {number(row[first]), number(row[first + 1]), number(row[first + 2])};
   }
@@ -413,7 +414,7 @@ std::optional<RunStep> RunReader::next() {
   return step;
 }
 
-/// None at the end, and where the line feed is missing there.
+/// Reads a line; none at the end, or where the last line has no line feed.
 std::optional<std::string> RunReader::next_line() {
   std::string text;
   std::getline(stream_, text);

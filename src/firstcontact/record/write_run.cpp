@@ -32,7 +32,7 @@ double finite(double number) {
   return number;
 }
 
-/// A step as text, without a tree of it: writing would take longer than many a step.
+/// A step as text. A tree of it would take longer to write than many a step takes to compute.
 class StepText {
  public:
   [[nodiscard]] std::string take() { return std::move(text_); }
@@ -57,7 +57,9 @@ class StepText {
     begin_next();
     text_ += value ? "true" : "false";
   }
-  /// With a digit behind the point, which keeps the sign of zero: shortest, and read as it was.
+  /// Adds the shortest text that reads back to the same double.
+  ///
+  /// A digit behind the point keeps the sign of zero.
   void add(double number) {
     begin_next();
     std::array<char, 32> digits;
@@ -161,7 +163,7 @@ class StepText {
       field("impulse", impact.impulse);
     });
   }
-  /// Null where no pair was near.
+  /// Adds a clearance; null where no pair was near.
   void add_clearance(double clearance) {
     if (clearance == std::numeric_limits<double>::infinity()) {
       begin_next();
@@ -209,7 +211,7 @@ class StepText {
   }
 
   std::string text_;
-  bool has_before_ = false;  // In the object or array that is open.
+  bool has_before_ = false;  // Whether a value stands before in the open object or array.
 };
 
 Json to_json(const Eigen::Vector3d& v) {

@@ -22,7 +22,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 struct BlendPlan {
   double before = 0.0;   // [-]
   double after = 0.0;    // [-]
-  double seconds = 0.0;  // [s]  0: rest.
+  double seconds = 0.0;  // [s]  0 for a rest.
 
   [[nodiscard]] double rate_before() const { return seconds > 0.0 ? 2.0 * before / seconds : 0.0; }
   [[nodiscard]] double rate_after() const { return seconds > 0.0 ? 2.0 * after / seconds : 0.0; }
@@ -45,7 +45,7 @@ class BlendPlanner {
     }
   }
 
-  /// One blend for each waypoint; those of the ends are none.
+  /// Plans one blend for each waypoint; those of the ends are empty.
   std::vector<BlendPlan> run() {
     constexpr int kSweeps = 4;
     bool has_changed = true;
@@ -68,7 +68,7 @@ class BlendPlanner {
     double gain = 0.0;  // [s]
   };
 
-  /// The best length of one blend while the others keep theirs.
+  /// Finds the best length of one blend while the others keep theirs.
   bool improve(std::size_t at) {
     constexpr std::array<double, 11> kShares{1.0,  0.75, 0.55, 0.4,  0.3, 0.22,
                                              0.16, 0.11, 0.07, 0.04, 0.0};
@@ -88,13 +88,13 @@ class BlendPlanner {
         }
       }
     }
-    constexpr double kWorthwhile = 1e-4;  // Relative.
+    constexpr double kWorthwhile = 1e-4;  // Relative gain.
     const bool is_worthwhile = best.gain > kWorthwhile * total_;
     take(best);
     return is_worthwhile;
   }
 
-  /// What one blend changes: itself, and those near it that have to be slower for it.
+  /// The changes by one blend: itself, and those near it that have to be slower for it.
   Change changed(std::size_t at, const BlendPlan& blend) {
     trial_[at] = blend;
     std::size_t last = at;
@@ -105,7 +105,7 @@ class BlendPlanner {
         break;
       }
     }
-    // The ends of the path rest and are never slowed: the loop ends before the first edge does.
+    // The ends of the path rest and are never slowed. So the loop ends before the first edge does.
     std::size_t first = at;
     for (std::size_t edge = last;; --edge) {
       if (slow_begin(edge)) {
@@ -158,7 +158,7 @@ class BlendPlanner {
     return {before, after, seconds};
   }
 
-  /// Whether a way has the room for a ramp between two rates.
+  /// Whether a way has room for a ramp between two rates.
   static bool has_room(double from, double to, double way, const LineLimits& line) {
     return detail::ramp_way(from, to, line) + 0.5 * (from + to) * detail::kRampRoom <= way;
   }
@@ -174,12 +174,12 @@ class BlendPlanner {
     return low;
   }
 
-  /// [-]  Of an edge between its blends.
+  /// [-]  Length of an edge between its blends.
   [[nodiscard]] double straight_way(std::size_t edge) const {
     return 1.0 - trial_[edge].after - trial_[edge + 1].before;
   }
 
-  /// Slows the blend at the end of an edge to what can be reached from that at its begin.
+  /// Slows the blend at the end of an edge to the rate that is reachable from its begin.
   bool slow_end(std::size_t edge) {
     BlendPlan& next = trial_[edge + 1];
     const double from = trial_[edge].rate_after();
@@ -192,7 +192,7 @@ class BlendPlanner {
     return true;
   }
 
-  /// Slows the blend at the begin of an edge to that from which its end can be reached.
+  /// Slows the blend at the begin of an edge to a rate from which its end can be reached.
   bool slow_begin(std::size_t edge) {
     BlendPlan& last = trial_[edge];
     const double to = trial_[edge + 1].rate_before();
@@ -205,7 +205,8 @@ class BlendPlanner {
     return true;
   }
 
-  /// [s]  Of an edge and the blend behind it; infinite where the rates of its blends cannot be had.
+  /// [s]  Time of an edge and the blend behind it; infinite where the rates of its blends cannot be
+  /// reached.
   [[nodiscard]] double seconds_of(std::size_t edge) const {
     const double from = trial_[edge].rate_after();
     const double to = trial_[edge + 1].rate_before();
@@ -222,7 +223,7 @@ class BlendPlanner {
   double share_;
   std::vector<LineLimits> lines_;
   std::vector<BlendPlan> plan_;
-  std::vector<BlendPlan> trial_;      // As plan_, but for what is tried.
+  std::vector<BlendPlan> trial_;      // As plan_, except for the blends on trial.
   std::vector<double> edge_seconds_;  // [s]  As seconds_of().
   double total_ = 0.0;                // [s]
 };

@@ -13,21 +13,22 @@
 
 namespace firstcontact {
 
-/// The greatest share of an edge that a blend may take: the other one leaves a tenth in between.
+/// [-]  The greatest share of an edge that a blend may take; two blends leave a tenth between them.
 inline constexpr double kLongestBlend = 0.45;
 
-/// The blend about one waypoint: it leaves the edge before it and joins the one behind it.
+/// The blend about one waypoint: from the edge before it to the edge behind it.
 ///
-/// A polynomial of degree 4 in time, by which the velocity turns from one edge's to the other's,
-/// with accelerations of 0 at both ends. It stays in the triangle of its ends and the waypoint.
+/// It is a polynomial of degree 4 in time. Its velocity turns from one edge's to the other's, with
+/// accelerations of 0 at both ends. It stays in the triangle of its ends and the waypoint.
 struct Blend {
-  double before = 0.0;     ///< [-]  Share of the edge before the waypoint; 0: rest there.
+  double before = 0.0;     ///< [-]  Share of the edge before the waypoint; 0 where the robot rests
+                           ///< there.
   double after = 0.0;      ///< [-]  Share of the edge behind it.
   std::int64_t begin = 0;  ///< [ns]
   std::int64_t end = 0;    ///< [ns]  As `begin` where the robot rests.
 };
 
-/// A motion with the blends that it has, one for each waypoint between the ends.
+/// A motion with its blends, one for each waypoint between the ends.
 struct BlendedMotion {
   TimedMotion motion = {};
   std::vector<Blend> blends = {};
@@ -36,18 +37,18 @@ struct BlendedMotion {
 /// Times a path with blends about the waypoints, each as long as makes the motion fastest.
 ///
 /// Derivation: a blend of time T from velocity u to velocity w has the position
-///   p + T (u s + (w - u) (s^3 - s^4 / 2)),  s in [0, 1],
-/// whose velocity is between u and w, whose acceleration is at most 1.5 |w - u| / T and whose jerk
-/// is at most 6 |w - u| / T^2. The controller's quintic between the two ends of a blend is this
+///   p + T (u s + (w - u) (s^3 - s^4 / 2)),  s in [0, 1].
+/// Its velocity is between u and w. Its acceleration is at most 1.5 |w - u| / T, and its jerk at
+/// most 6 |w - u| / T^2. The controller's quintic between the two ends of a blend is this
 /// polynomial. Between the blends the motion follows the edges with phases of constant jerk.
 ///
-/// Lengths are a heuristic's: waypoint by waypoint, as long as one change makes the motion faster.
-/// Geometry and limits do not depend on it. A joint without a jerk limit gets one on the edges:
-/// its acceleration builds up in 10 ms.
+/// A heuristic chooses the lengths: waypoint by waypoint, as long as one change makes the motion
+/// faster. Geometry and limits do not depend on it. A joint without a jerk limit gets one on the
+/// edges: its acceleration builds up in 10 ms.
 ///
-/// @param longest  of the blend at each waypoint between the ends, a share of both edges in
-///                 [0, kLongestBlend]; 0: the robot rests there
-/// @param share    of the limits that may be used, in (0, 1]
+/// @param longest  greatest blend at each waypoint between the ends, a share of both edges in [0,
+///                 kLongestBlend]; 0: the robot rests there
+/// @param share    share of the limits that may be used, in (0, 1]
 /// @throws std::invalid_argument as require_path(), require_limits()
 [[nodiscard]] FIRSTCONTACT_API BlendedMotion blend_motion(const WaypointPath& path,
                                                           const std::vector<RateLimits>& limits,

@@ -45,14 +45,14 @@ void require_held_all_the_time(const RobotScene& scene) {
   }
 }
 
-/// [-]  Of the distance that a pair is held to. A plan leaves at least twice as much to it.
+/// [-]  Tolerance, by the distance that a pair is held to. A plan leaves at least twice as much.
 constexpr double kToleranceOfHolds = 0x1p-7;
 
 double start_of(const CoordinatePath& path) {
   return path.segments().front().state(0.0).value.value();
 }
 
-/// Where the coordinates of a robot are at t = 0, by name.
+/// The coordinates of a robot at t = 0, by name.
 JointPositions start_positions(const RobotMotion& motion) {
   JointPositions positions;
   for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
@@ -71,7 +71,7 @@ JointPositions start_positions(const RobotMotion& motion) {
   return positions;
 }
 
-/// [s]  Of the check: also a motion of one point takes a while.
+/// [s]  Duration of the check: also a motion of one point takes a while.
 double step_of(const TimedMotion& motion) { return std::max(motion.duration(), 1e-9); }
 
 RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before) {
@@ -87,7 +87,7 @@ RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before
   return {model, std::move(joints.joints), before.base()};
 }
 
-/// Whether a coordinate stays where it is, to the rounding that a proof allows for.
+/// Whether a coordinate stays in place, to the rounding that a proof allows for.
 bool rests_nearly(std::span<const CoordinateSegment> segments) {
   double low = segments.front().a[0].hi;
   double high = low;
@@ -102,8 +102,10 @@ bool rests_nearly(std::span<const CoordinateSegment> segments) {
   return high - low <= kRoundingAllowance;
 }
 
-/// The limits that a robot leaves, but for those of which rate_report() tells, and of joints that
-/// rest, also where the path names them: no retiming changes these.
+/// The limits that a robot leaves and that retiming can change.
+///
+/// Left out are those that rate_report() reports, and those of joints that rest, also where the
+/// path names them.
 ///
 /// @param motion  its points, with the robot's own names
 std::vector<LimitViolation> violations_of(const TimedMotion& motion, const RobotMotion& robot) {
@@ -117,14 +119,14 @@ std::vector<LimitViolation> violations_of(const TimedMotion& motion, const Robot
   return violations;
 }
 
-/// Bounds what the rounding of times, velocities and accelerations to those of the step puts a
-/// joint off.
+/// Bounds how far a joint is off by the rounding of times, velocities and accelerations.
 ///
-/// Derivation: with u = 2^-53 and D the duration, a quotient t / D is off by u at most, which moves
-/// the time by u D and the length of a segment by 2 u D; a velocity or acceleration per step is off
-/// by one or two units. With V the greatest velocity, A the greatest acceleration of a point and h
-/// the longest segment, the position is off by less than 16 u D (V + 2 A h): by the times u D (V +
-/// A h), by the velocity u V h and by the acceleration u A h^2, a few times each, and h <= D.
+/// Derivation: u = 2^-53, and D is the duration. A quotient t / D is off by u at most. That moves
+/// the time by u D and changes the length of a segment by 2 u D. A velocity or acceleration per
+/// step is off by one or two units. V is the greatest velocity, A the greatest acceleration of a
+/// point, and h the longest segment, h <= D. The position is off by u D (V + A h) for the times, u
+/// V h for the velocity and u A h^2 for the acceleration, a few times each. The sum is less than 16
+/// u D (V + 2 A h).
 double rounding_of(const TimedMotion& motion, const std::vector<RateUse>& rates) {
   double velocity = 0.0;
   for (const RateUse& use : rates) {
@@ -163,7 +165,7 @@ void add_rounding_allowance(RobotScene& scene, std::size_t robot) {
   }
 }
 
-/// The robots that leave limits of positions.
+/// The robots with positions beyond limits.
 std::vector<SceneLimits> positions_beyond_limits(const TimedMotion& motion,
                                                  const RetimingScene& where) {
   std::vector<SceneLimits> all;
@@ -200,7 +202,7 @@ SceneResult check_stretch(const TimedMotion& motion, const std::vector<RetimingH
                               .closest = options.closest});
 }
 
-/// Whether the reader found a point that stands twice: its warning is the only trace of it.
+/// Whether the reader found a point that stands twice; only its warning shows it.
 bool takes_a_point_once(const Trajectory& trajectory) {
   return std::any_of(trajectory.warnings.begin(), trajectory.warnings.end(),
                      [](const std::string& warning) {

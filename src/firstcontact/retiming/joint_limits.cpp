@@ -51,7 +51,7 @@ GivenLimits limits_in(const JsonValue& value, const JsonReader& read) {
   const JsonValue* slows = find(joint, "max_deceleration");
   const JsonValue* has_one = find(joint, "has_deceleration_limits");
   if (slows != nullptr && (has_one == nullptr || read.boolean(*has_one))) {
-    const double size = std::abs(read.number(*slows));  // Some files give it with a minus.
+    const double size = std::abs(read.number(*slows));  // Some files give it with a minus sign.
     if (!(size > 0.0)) {
       read.fail_expected("a number that is not 0", *slows);
     }
@@ -136,7 +136,7 @@ class LimitSources {
     }
   }
 
-  /// A follower keeps the velocity of its robot in any case: the proof has it.
+  /// The given limits of a follower. The velocity of its robot always counts, as the proof has it.
   [[nodiscard]] GivenLimits limits_of_follower(std::size_t joint) const {
     const GivenLimits given = given_for(robot_.joints()[joint].name);
     return with_others({.velocity = least(given.velocity, velocity_of_robot(joint)),

@@ -58,16 +58,17 @@ class CoordinateRates {
   }
 
  private:
-  /// [s]  Rounded.
+  /// [s]  A time within a segment, rounded.
   [[nodiscard]] double time_in(std::size_t segment, double where) const {
     const auto from = static_cast<double>(motion_.points[segment].time);
     const auto to = static_cast<double>(motion_.points[segment + 1].time);
     return (from + where * (to - from)) / 1e9;
   }
 
-  /// Where the rate below the limited one jumps, the limited one is infinite.
+  /// Makes the limited rate infinite where the rate below it jumps.
   ///
-  /// @param is_given  the points have the number: it is the same on both sides of an inner point
+  /// @param is_given  whether the points have the number: it is then the same on both sides of an
+  ///                  inner point
   void add_jumps(JointRate below, bool is_given, RateUse& use) const {
     const Interval rest(0.0);
     for (std::size_t k = 0; k < motion_.points.size(); ++k) {
@@ -90,7 +91,7 @@ class CoordinateRates {
     }
   }
 
-  /// Enclosures of an end may be wide where the number of the point is 0, as it is at rest.
+  /// Whether the given number of a point is 0, as at rest, where enclosures of an end may be wide.
   [[nodiscard]] bool given_is_zero(std::size_t point, JointRate below, bool is_given) const {
     const TimedPoint& at = motion_.points[point];
     return is_given &&

@@ -11,8 +11,8 @@
 namespace firstcontact {
 namespace {
 
-/// Shares of the limits, in the order in which they are tried: rounding of the points to doubles
-/// takes little, short phases more.
+/// Shares of the limits in the order of trial: the rounding of points to doubles takes little,
+/// short phases take more.
 constexpr std::array<double, 5> kShares{1.0 - 1e-8, 1.0 - 1e-6, 1.0 - 1e-4, 0.99, 0.9};
 
 class Retimer {
@@ -40,7 +40,7 @@ class Retimer {
     return prove_motion(motion, limits_, where_, options_.proof);
   }
 
-  /// The first motion whose limits are proven; the last one where none is.
+  /// Makes the first motion whose limits are proven; the last one where none is.
   template <class Make>
   TimedMotion within_limits(const Make& make) const {
     TimedMotion motion;
@@ -65,7 +65,8 @@ class Retimer {
     return blended;
   }
 
-  /// Where pairs have to be open the motion rests: there ends the time for which they are held.
+  /// The longest blends. The motion rests where pairs have to be open, as the time of their hold
+  /// ends there.
   [[nodiscard]] std::vector<double> longest_blends() const {
     std::vector<double> longest(path_.waypoints.size() - 2, kLongestBlend);
     for (const RetimingHold& hold : where_.holds) {
@@ -76,7 +77,7 @@ class Retimer {
     return longest;
   }
 
-  /// A proven motion with blends that is faster than one without; none where there is none.
+  /// A proven motion with blends that is faster than the one without; none where there is none.
   std::optional<RetimedMotion> blend(double stop_duration) {
     std::vector<double> longest = longest_blends();
     while (!options_.proof.budget.stop.stop_requested()) {
@@ -103,15 +104,15 @@ class Retimer {
     return std::nullopt;
   }
 
-  /// Makes the blend shorter that is in contact or undecided; false where none is.
+  /// Shortens the blend that is in contact or undecided; false where none is.
   bool shorten(const std::vector<Blend>& blends, const ExecutedProof& proof,
                std::vector<double>& longest) {
-    constexpr double kShortest = 1e-3;  // [-]  Of an edge; shorter ones gain nothing.
+    constexpr double kShortest = 1e-3;  // [-]  Share of an edge; shorter blends gain nothing.
     const double at = proof.contact_time() * 1e9;
     for (std::size_t k = 0; k < blends.size(); ++k) {
       const Blend& blend = blends[k];
       const bool is_blend = blend.end > blend.begin;
-      // A contact at an instant where an edge and a blend meet counts to the blend.
+      // A contact at the instant where an edge and a blend meet counts for the blend.
       constexpr double kMeeting = 1000.0;  // [ns]
       if (is_blend && static_cast<double>(blend.begin) - kMeeting <= at &&
           at <= static_cast<double>(blend.end) + kMeeting) {

@@ -35,7 +35,7 @@ std::size_t robot_named(const Scene& scene, const std::string& name) {
   throw std::invalid_argument("expected a robot of the scene, got " + detail::in_quotes(name));
 }
 
-/// Refuses the name of a robot that is not all that a path moves.
+/// Refuses a robot's name for a path that moves others, or more.
 ///
 /// @param robot  may be empty
 /// @param file   names the path in errors
@@ -51,7 +51,7 @@ void require_mover(const RetimingPath& path, const std::string& robot, const std
   }
 }
 
-/// A contact pair of the path in the scene that was loaded.
+/// A contact pair of the path in the loaded scene.
 RetimingHold hold_of(const NamedContactPair& pair, const RetimingPath& input,
                      const RobotScene& scene) {
   const std::string names =

@@ -9,7 +9,7 @@
 namespace firstcontact {
 namespace {
 
-constexpr const char* kRoot = "world";  // No link of a robot: these are ROBOT/NAME.
+constexpr const char* kRoot = "world";  // Not the name of a link: links are ROBOT/NAME.
 
 const RobotModel& model_of(const RetimingScene& where, std::size_t robot) {
   if (robot >= where.scene.robot_count()) {
@@ -19,7 +19,7 @@ const RobotModel& model_of(const RetimingScene& where, std::size_t robot) {
   return where.scene.robot_motion(robot).model();
 }
 
-/// Adds a robot on a fixed joint, which comes behind its own joints.
+/// Adds a robot, on a fixed joint that comes behind its own joints.
 void add_robot(const std::string& name, const RobotModel& model, RobotDescription& joined) {
   const std::string begin = name + "/";
   for (const Link& link : model.links()) {
@@ -40,22 +40,24 @@ void add_robot(const std::string& name, const RobotModel& model, RobotDescriptio
 
 /// A coordinate of one of several robots.
 struct RobotCoordinate {
-  std::size_t which = 0;  ///< Of the robots that move.
-  std::string name;       ///< In that robot.
+  std::size_t which = 0;  ///< Index among the robots that move.
+  std::string name;       ///< Name in that robot.
 };
 
-/// @param coordinate  of the joined model
+/// The coordinate of a robot for one of the joined model.
+///
+/// @param coordinate  a coordinate of the joined model
 RobotCoordinate own_coordinate(const RetimingScene& where, JointCoordinate coordinate) {
   for (std::size_t which = 0;; ++which) {
     const RobotModel& model = model_of(where, where.robots[which]);
     if (coordinate.joint < model.joints().size()) {
       return {which, coordinate_name(model, coordinate)};
     }
-    coordinate.joint -= model.joints().size() + 1;  // The joint that add_robot() puts behind them.
+    coordinate.joint -= model.joints().size() + 1;  // The joint that add_robot() appends.
   }
 }
 
-/// Appends a column of numbers; of rates that the points do not have, nothing.
+/// Appends a column of numbers; nothing for rates that the points do not have.
 void append_column(const TimedMotion& motion, std::size_t column, TimedMotion& part) {
   for (std::size_t k = 0; k < motion.points.size(); ++k) {
     for (const auto numbers :

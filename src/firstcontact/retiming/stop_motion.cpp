@@ -21,7 +21,7 @@ bool any_jerk_limit(const std::vector<RateLimits>& limits) {
                      [](const RateLimits& limit) { return limit.jerk.has_value(); });
 }
 
-/// The joint that goes farthest on an edge: the others follow it.
+/// The joint that goes farthest on an edge; the others follow it.
 std::size_t leading_joint(const std::vector<double>& a, const std::vector<double>& b) {
   std::size_t leading = 0;
   for (std::size_t joint = 1; joint < a.size(); ++joint) {
@@ -40,9 +40,9 @@ bool rests_at(const TimedPoint& point, const std::vector<double>& waypoint) {
 
 /// A bound of the distance of all joints from the edge on one segment.
 ///
-/// The leading joint's own motion defines x; it is on the edge for every x in [0, 1]. The others
-/// are compared with it coefficient by coefficient: the difference of two polynomials is no greater
-/// than that of their Bernstein coefficients.
+/// The leading joint's own motion defines x, so that it is on the edge for every x in [0, 1]. The
+/// other joints are compared with it coefficient by coefficient. The difference of two polynomials
+/// is no greater than that of their Bernstein coefficients.
 double deviation_on(const TimedPoint& from, const TimedPoint& to, const std::vector<double>& a,
                     const std::vector<double>& b) {
   const std::size_t leading = leading_joint(a, b);

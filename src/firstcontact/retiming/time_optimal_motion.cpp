@@ -19,13 +19,13 @@ namespace {
 using detail::BlendedPath;
 using detail::PathTiming;
 
-/// Points between two rests; times from 0 on.
+/// The points between two rests; times from 0 on.
 struct Stretch {
   std::vector<TimedPoint> points;
-  std::vector<Blend> blends;  // With times of the stretch.
+  std::vector<Blend> blends;  // Blends with times of the stretch.
 };
 
-/// What times have to be multiplied by so that all limits hold.
+/// The factor for all times so that all limits hold.
 double needed_slowness(const std::vector<RateUse>& report) {
   double slowness = 0.0;
   for (const RateUse& use : report) {
@@ -50,7 +50,7 @@ class StretchTimer {
         geometry_(path, blends, first, last),
         timing_(detail::phase_plane(geometry_, limits, share)) {}
 
-  /// None where the grid found no motion that is faster than a given one.
+  /// Times the stretch; none where the grid found no motion faster than a given one.
   [[nodiscard]] std::optional<Stretch> run(double seconds) const {
     if (!(timing_.duration() < seconds)) {
       return std::nullopt;
@@ -67,8 +67,9 @@ class StretchTimer {
   }
 
  private:
-  /// [-]  Low limits slow a motion down, and its windows with it: else the number of points, and
-  /// the work, would grow with the duration.
+  /// [-]  Factor of the windows. Low limits slow a motion down, and its windows with it.
+  ///
+  /// Otherwise the number of points, and the work, would grow with the duration.
   [[nodiscard]] double window_scale(double shortest) const {
     constexpr double kWindowsPerEdge = 500.0;
     const auto edges = static_cast<double>(last_ - first_);
@@ -104,14 +105,14 @@ class StretchTimer {
     return low;
   }
 
-  /// Stretched until the limits hold.
+  /// The averaged motion, stretched until the limits hold.
   [[nodiscard]] Stretch averaged(double window) const {
     const Stretch stretch = averaged(window, 1.0);
     const auto report = rate_report({path_.joint_names, stretch.points}, limits_);
     return averaged(window, needed_slowness(report) / share_);
   }
 
-  /// The points are taken at whole nanoseconds, so that no number is off by the rounding of times.
+  /// The averaged motion at whole nanoseconds, so that no number is off by the rounding of times.
   [[nodiscard]] Stretch averaged(double window, double slowness) const {
     const double duration = (timing_.duration() + window) * slowness;
     const double cells = std::ceil(duration / (0.5 * window * slowness));

@@ -13,7 +13,7 @@ constexpr double kNanosecondsPerSecond = 1e9;
 std::int64_t whole_nanoseconds(double seconds) {
   const double product = seconds * kNanosecondsPerSecond;
   const double rounded = std::round(product);
-  // The nearest double of a whole nanosecond is within half a unit, the product adds another one.
+  // The nearest double of a whole nanosecond is within half a unit; the product adds another half.
   const double slack = 0x1p-51 * product;
   if (!(product >= 0.0 && product <= kLatestTime && std::abs(product - rounded) <= slack)) {
     throw std::invalid_argument("expected a time in whole nanoseconds, got " +

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kNanosecondsInSecond = 1'000'000'000;
 
-/// A number that YAML 1.1 takes for one: 1.0e-07, not 1e-07.
+/// The text of a number that YAML 1.1 reads as a number: 1.0e-07, not 1e-07.
 std::string yaml_number(double value) {
   std::string text = detail::write_json(value);
   const std::size_t exponent = text.find('e');
@@ -85,14 +85,14 @@ std::string write_json_message(const TimedMotion& motion) {
   return text + "\n]}\n";
 }
 
-/// "1.000000250": all nine digits, so that the time is whole nanoseconds for any reader.
+/// A time as "1.000000250": with all nine digits it is whole nanoseconds for any reader.
 std::string decimal_seconds(std::int64_t time) {
   std::string digits = std::to_string(time % kNanosecondsInSecond);
   digits.insert(0, 9 - digits.size(), '0');
   return std::to_string(time / kNanosecondsInSecond) + "." + digits;
 }
 
-/// Quoted where the reader would part it.
+/// A name, quoted where the reader would split it.
 std::string csv_name(const std::string& name) {
   if (name.find_first_of(",;\"\t #%") == std::string::npos) {
     return name;

@@ -20,7 +20,7 @@ void add_key(std::vector<GlbKey>& keys, double time, const Eigen::Vector3d& plac
   if (!keys.empty() && keys.back().R_WB.dot(key.R_WB) < 0.0) {
     key.R_WB.coeffs() *= -1.0;
   }
-  // Times of keys increase strictly, and pieces may be shorter than single precision tells apart.
+  // Times of keys increase strictly. Pieces may be shorter than single precision resolves.
   if (!keys.empty() && !(key.time > keys.back().time)) {
     key.time = keys.back().time;
     keys.back() = key;
@@ -56,7 +56,7 @@ void RunAnimation::add(const RunStep& step) {
     Course& course = courses_.at(moved.body);
     double from = time_;
     if (!course.keys.empty() && course.end < from) {
-      // Steps left it out: it stayed where it was.
+      // The body is not in the last steps, as it stayed in place.
       add_key(course.keys, course.end, centre(moved.body, course.X_WB), course.X_WB.rotation);
     }
     for (const RunPiece& piece : moved.pieces) {

@@ -22,27 +22,27 @@ struct LoadedScene;
 ///
 /// Each body is a node at its centre of mass, with its mesh below it. Between two keys a player
 /// moves the node on a line and turns it at a constant rate, which is the in-between motion of the
-/// run. Pieces that turn by more than a quarter have keys in between, as a player turns the short
-/// way. Numbers are in single precision, as glTF has them: the file shows a run and proves nothing.
-/// The root turns the scene so that gravity pulls along -y; without gravity z becomes y.
+/// run. A player turns the short way, so pieces that turn by more than a quarter have keys in
+/// between. Numbers are in single precision, as glTF has them: the file shows a run and proves
+/// nothing. The root turns the scene so that gravity pulls along -y. Without gravity z becomes y.
 class FIRSTCONTACT_API RunAnimation {
  public:
   explicit RunAnimation(const RunHeader& header);
 
-  /// The next step, from the first one on.
+  /// Adds the next step, from the first one on.
   void add(const RunStep& step);
 
-  /// [s]  The end of the last step. An animation shows some time: it is written when this is > 0.
+  /// [s]  The end of the last step. An animation can be written when this is > 0.
   [[nodiscard]] double time() const { return time_; }
 
-  /// The file.
+  /// Returns the contents of the file.
   ///
   /// @param loaded  the scene of the run, for the meshes
   /// @throws std::invalid_argument if no time has gone by, or the file would be larger than 4 GiB
   [[nodiscard]] std::string write(const LoadedScene& loaded) const;
 
  private:
-  /// A body's keys, and where it is behind the last of them.
+  /// A body's keys, and its place at the end of the last of them.
   struct Course {
     std::vector<detail::GlbKey> keys;
     double end = 0.0;  // [s]
@@ -54,7 +54,7 @@ class FIRSTCONTACT_API RunAnimation {
 
   RunHeader header_;
   double time_ = 0.0;            // [s]
-  std::vector<Course> courses_;  // Of every body; of those at rest empty.
+  std::vector<Course> courses_;  // One for every body; empty for bodies at rest.
 };
 
 }  // namespace firstcontact

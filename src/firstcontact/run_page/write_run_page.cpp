@@ -34,7 +34,7 @@ void RunPage::add(const RunStep& step) {
     add(contact);
   }
   contacts_until_.add(contact_count_, 4);
-  // What polylines and contacts hold is left out of the step.
+  // The step leaves out what polylines and contacts hold.
   RunStep rest = step;
   rest.bodies.clear();
   rest.contacts.clear();
@@ -61,7 +61,7 @@ void RunPage::add(const RunBody& moved) {
   Polyline& polyline = polylines_[moved.body];
   double from = time_;
   if (polyline.times.size() > 0 && polyline.end < from) {
-    // Steps left it out: it stayed where it was.
+    // The body is not in the last steps, as it stayed in place.
     begin_piece(moved.body, polyline.end, polyline.X_WB, Eigen::Vector3d::Zero());
   }
   for (const RunPiece& piece : moved.pieces) {
@@ -82,7 +82,7 @@ void RunPage::add(const RunContact& contact) {
   ++contact_count_;
 }
 
-/// Links are bodies there, and the page has their meshes elsewhere.
+/// The header of a page. Links are bodies there, and the page has their meshes elsewhere.
 std::string RunPage::header_json(const Scene& linked) const {
   RunHeader header = header_;
   header.scene = linked;

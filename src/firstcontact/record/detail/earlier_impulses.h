@@ -12,10 +12,11 @@
 
 namespace firstcontact::detail {
 
-/// Adds impulses to the contacts at the same features, or else nearest to them on the same pair.
+/// Adds impulses to the contacts at the same features, or else to the nearest ones on the same
+/// pair.
 ///
 /// @tparam Contact  has `bodies`, `feature_A`, `feature_B`, `point` and `impulse`
-/// @param earlier  those of pairs that parted stay; all others are taken out
+/// @param earlier  contacts of pairs that parted stay in it; all others are removed
 template <typename Contact>
 void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& contacts) {
   std::multimap<BodyPair, Contact*> of_pair;

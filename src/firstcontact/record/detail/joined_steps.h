@@ -7,12 +7,11 @@
 
 namespace firstcontact::detail {
 
-/// What was recorded of a part of a step and of the part after it, as one step of the first's
-/// number.
+/// Joins the records of a part of a step and of the part after it, under the number of the first.
 ///
-/// Pieces, impacts and events of both; states and contacts at the end of the second. Impulses of
-/// contacts are summed; those of pairs that parted are impacts. Forces of motors and ties are means
-/// over both.
+/// The joint step has the pieces, impacts and events of both, and the states and contacts at the
+/// end of the second. Impulses of contacts are summed up; those of pairs that parted become
+/// impacts. Forces of motors and ties are means over both.
 [[nodiscard]] RunStep joined(RunStep first, RunStep second);
 
 }  // namespace firstcontact::detail

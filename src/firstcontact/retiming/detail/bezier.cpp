@@ -8,7 +8,8 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Of the differences of coefficients: the derivative in time has `degree` times them per length.
+/// The derivative in time, from the differences of coefficients: it has `degree` times them per
+/// length.
 Bezier derivative(const Bezier& of, const Interval& seconds) {
   Bezier result;
   if (of.count == 1) {
@@ -23,10 +24,10 @@ Bezier derivative(const Bezier& of, const Interval& seconds) {
   return result;
 }
 
-/// The steps from each Bernstein coefficient of the position to the next.
+/// The polynomial with these steps from each Bernstein coefficient of the position to the next.
 ///
-/// Only one of them has the difference of the positions: the others stay small where it is.
-/// Derivation: Hermite's interpolation in Bernstein form, G. Farin, section 7.5.
+/// Only one of the steps has the difference of the positions. The others stay small where it is
+/// large. Derivation: Hermite's interpolation in Bernstein form, G. Farin, section 7.5.
 Bezier way_by_steps(const std::array<Interval, 5>& steps, std::size_t count) {
   Bezier way;
   way.count = count + 1;
@@ -49,11 +50,11 @@ Bezier velocity_by_steps(const std::array<Interval, 5>& steps, std::size_t count
 }
 
 constexpr int kDeepest = 40;
-constexpr double kResolution = 1e-9;  // Relative, of a peak.
+constexpr double kResolution = 1e-9;  // [-]  Relative resolution of a peak.
 
 void climb(const Bezier& p, double begin, double end, int depth, Peak& best) {
   const auto look = [&](const Interval& value, double where) {
-    const double least = std::max(value.lower(), -value.upper());  // Of the size.
+    const double least = std::max(value.lower(), -value.upper());  // A lower bound of the size.
     if (least > best.attained) {
       best.attained = least;
       best.where = where;
@@ -65,7 +66,7 @@ void climb(const Bezier& p, double begin, double end, int depth, Peak& best) {
   if (bound <= best.bound) {
     return;
   }
-  // Closer than the coefficients are wide it cannot come. Negated, as widths may be infinite.
+  // The result cannot be closer than the coefficients are wide. Negated, as widths may be infinite.
   const double close = best.attained * (1.0 + kResolution) + 2.0 * p.greatest_width();
   if (!(bound > close) || depth == kDeepest) {
     best.bound = bound;
@@ -73,7 +74,7 @@ void climb(const Bezier& p, double begin, double end, int depth, Peak& best) {
   }
   const auto [left, right] = p.halves();
   const double middle = 0.5 * (begin + end);
-  // The half that reaches higher first: then the other one is often left out.
+  // The half that reaches higher comes first: then the other one is often left out.
   if (left.magnitude() >= right.magnitude()) {
     climb(left, begin, middle, depth + 1, best);
     climb(right, middle, end, depth + 1, best);

@@ -1,5 +1,5 @@
 /// @file
-/// What a controller interpolates between two points, in Bernstein form with intervals.
+/// The polynomials between two points of a controller, in Bernstein form with intervals.
 
 #pragma once
 
@@ -15,8 +15,10 @@ struct TimedPoint;
 
 namespace firstcontact::detail {
 
-/// A polynomial on [0, 1] by its Bernstein coefficients: it stays between the least and the
-/// greatest of them (G. Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, section 5.1).
+/// A polynomial on [0, 1] by its Bernstein coefficients.
+///
+/// It stays between the least and the greatest of them. Source: G. Farin, "Curves and Surfaces for
+/// CAGD", 5th edition, 2002, section 5.1.
 struct Bezier {
   std::array<Interval, 6> b = {};
   std::size_t count = 1;
@@ -33,7 +35,8 @@ struct Bezier {
 
 /// The polynomial of one coordinate between two points, and its derivatives in time.
 ///
-/// For the exact values of the doubles: differences of positions are enclosed, not rounded.
+/// It holds for the exact values of the doubles: differences of positions are enclosed, not
+/// rounded.
 struct SegmentRates {
   Interval seconds;     ///< [s]  Length of the segment.
   Bezier way;           ///< [rad or m]  Position less that of the first point.
@@ -42,6 +45,8 @@ struct SegmentRates {
   Bezier jerk;          ///< [rad/s^3 or m/s^3]
 };
 
+/// The polynomials of one coordinate between two points.
+///
 /// @param coordinate  index into the numbers of the points
 [[nodiscard]] SegmentRates segment_rates(const TimedPoint& from, const TimedPoint& to,
                                          std::size_t coordinate);
@@ -49,13 +54,13 @@ struct SegmentRates {
 /// The greatest size of a polynomial on [0, 1].
 struct Peak {
   double attained = 0.0;  ///< A size that the polynomial has, rounded downwards.
-  double bound = 0.0;     ///< No value is greater.
-  double where = 0.0;     ///< [-]  In [0, 1]: where `attained` is.
+  double bound = 0.0;     ///< Upper bound of all sizes.
+  double where = 0.0;     ///< [-]  Place of `attained`, in [0, 1].
 };
 
 /// Finds the greatest size to a relative 1e-9, or to the width of the coefficients.
 ///
-/// @param known  sizes up to this one need not be told apart
+/// @param known  sizes up to this one need not be distinguished
 [[nodiscard]] Peak peak(const Bezier& polynomial, double known = 0.0);
 
 }  // namespace firstcontact::detail

@@ -18,27 +18,28 @@ struct PathPlace {
   std::vector<double> ddp;  ///< [rad or m]  Per unit of S^2.
 };
 
-/// The stretch of a path between two waypoints at which the robot rests, p(S), twice continuously
-/// differentiable.
+/// The stretch p(S) of a path between two waypoints at which the robot rests.
 ///
-/// Derivation: on edge e from a to b, dp / dS = c (b - a). A blend of shares `before` and `after`
-/// has a length of 2 before / c of the edge before it, and the edge behind it the factor
-/// c after / before: so the first derivatives meet. The second ones are 0 there.
+/// p is twice continuously differentiable. Derivation: on edge e from a to b, dp / dS = c (b - a).
+/// A blend of shares `before` and `after` has a length of 2 before / c of the edge before it. The
+/// edge behind it has the factor c after / before, so that the first derivatives meet. The second
+/// derivatives are 0 there.
 class BlendedPath {
  public:
   /// One edge's straight part, or one blend.
   struct Piece {
-    std::size_t edge = 0;  ///< The one before a blend.
-    double begin = 0.0;    ///< Of S.
+    std::size_t edge = 0;  ///< Index of the edge; of a blend, of the edge before it.
+    double begin = 0.0;    ///< Value of S at the begin.
     double end = 0.0;
-    double x_begin = 0.0;  ///< [-]  On the edge, of a straight piece.
-    double factor = 1.0;   ///< dx / dS on the edge.
+    double x_begin = 0.0;  ///< [-]  Place on the edge where a straight piece begins.
+    double factor = 1.0;   ///< Derivative dx / dS on the edge.
     bool is_blend = false;
     double before = 0.0;
     double after = 0.0;
   };
 
-  /// @param first, last  waypoints at which the robot rests; all blends between them are blends
+  /// @param first, last  waypoints at which the robot rests, with blends at all waypoints between
+  ///                     them
   BlendedPath(const WaypointPath& path, const std::vector<Blend>& blends, std::size_t first,
               std::size_t last);
 

@@ -17,7 +17,7 @@ bool rests(const TimedPoint& point) {
          std::ranges::all_of(point.accelerations, is_zero);
 }
 
-/// Of what is free, the closest approach is that of the stretch that comes closest.
+/// Whether a is closer than b: a free motion has the closest approach of its closest stretch.
 bool is_closer(const SceneResult& a, const SceneResult& b) {
   const auto distance = [](const SceneResult& result) {
     return result.closest ? result.pairs.at(*result.closest).closest->distance
@@ -26,7 +26,7 @@ bool is_closer(const SceneResult& a, const SceneResult& b) {
   return distance(a) < distance(b);
 }
 
-/// Rounded downward: before the time of a contact all is proven free.
+/// A time of a stretch in the motion, rounded downward: before a contact all is proven free.
 double in_motion(double t, const StretchResult& stretch, double duration) {
   const double time = stretch.begin + t * (stretch.end - stretch.begin);
   return std::clamp(time / duration * (1.0 - 0x1p-50), 0.0, 1.0);

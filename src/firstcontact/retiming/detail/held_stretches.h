@@ -1,5 +1,5 @@
 /// @file
-/// The stretches of a motion in which contact pairs are held, and the result of all of them.
+/// The stretches of a motion in which contact pairs are held, and their joint result.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace firstcontact::detail {
 
 /// A motion, cut where pairs open or where those at the goal begin to be held.
 ///
-/// The cuts are points at which the motion rests. They belong to the stretches on both sides, so
+/// The cuts are points at which the motion rests. Each belongs to the stretches on both sides, so
 /// that a pair keeps its margin where it has opened. A cut at an end of the motion makes a stretch
 /// of one point.
 class HeldStretches {
@@ -28,22 +28,23 @@ class HeldStretches {
 
   [[nodiscard]] std::size_t size() const { return stretches_.size(); }
 
-  /// [s]  Of the first and the last point of a stretch.
+  /// [s]  Time of the first point of a stretch.
   [[nodiscard]] double begin(std::size_t stretch) const;
+  /// [s]  Time of the last point of a stretch.
   [[nodiscard]] double end(std::size_t stretch) const;
 
-  /// The points of a stretch; times from 0 on. Between them the motion is the same.
+  /// The points of a stretch, with times from 0 on. Between them the motion is the same.
   [[nodiscard]] TimedMotion motion(std::size_t stretch) const;
 
   /// The pairs that are held in a stretch.
   [[nodiscard]] std::vector<RetimingHold> holds(std::size_t stretch) const;
 
-  /// From when to when each pair is held.
+  /// The times from when to when each pair is held.
   [[nodiscard]] std::vector<ProvenHold> times() const;
 
  private:
   struct Stretch {
-    std::size_t first = 0;  // Of the points.
+    std::size_t first = 0;  // Index of the first point.
     std::size_t last = 0;
   };
   [[nodiscard]] Stretch held_points(const RetimingHold& hold) const;
@@ -54,15 +55,16 @@ class HeldStretches {
   std::vector<Stretch> stretches_;
 };
 
-/// The answer about a stretch.
+/// The result of a stretch.
 struct StretchResult {
   double begin = 0.0;  ///< [s]
   double end = 0.0;    ///< [s]
   SceneResult result;
 };
 
-/// Takes the answer about the next stretch into that about the motion, which is free so far. The
-/// first answer is taken as it is where its stretch is the whole motion.
+/// Adds the result of the next stretch to that of the motion, which is free so far.
+///
+/// The result of a stretch that is the whole motion is taken as it is.
 ///
 /// @param duration  [s]  of the motion
 void append_result(StretchResult next, double duration, SceneResult& all);

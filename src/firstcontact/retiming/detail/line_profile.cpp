@@ -37,7 +37,7 @@ Ramp fastest_ramp(double change, const LineLimits& limits) {
   return {std::sqrt(size / limits.jerk), 0.0};
 }
 
-/// The highest rate between two ramps that fit into the way, at least both of the ends.
+/// The highest rate between two ramps that fit into the way, at least that of both ends.
 double rate_between(double way, double from, double to, const LineLimits& limits) {
   const auto fits = [&](double rate) {
     return ramp_way(from, rate, limits) + ramp_way(rate, to, limits) <= way;
@@ -57,7 +57,7 @@ double rate_between(double way, double from, double to, const LineLimits& limits
   return low;
 }
 
-/// [s]  Between the ramps; none where the rate is below its limit.
+/// [s]  Time between the ramps; none where the rate is below its limit.
 double cruise_seconds(double way, double from, double to, double rate, const LineLimits& limits) {
   if (rate < limits.rate && rate > std::max(from, to)) {
     return 0.0;
@@ -66,7 +66,7 @@ double cruise_seconds(double way, double from, double to, double rate, const Lin
   return rate > 0.0 ? std::max(0.0, left / rate) : 0.0;
 }
 
-/// [ns]  Rounded up; no phase between 0 and the shortest one.
+/// [ns]  The time of a phase, rounded up; none is between 0 and the shortest one.
 std::int64_t phase(double seconds) {
   return seconds > 0.0 ? std::max(kShortestPhase, whole_nanoseconds_up(seconds)) : 0;
 }
@@ -83,7 +83,7 @@ WholeRamp whole(const Ramp& ramp) {
     return {0, phase(ramp.straight)};
   }
   const double shortest = static_cast<double>(kShortestPhase) / kNano;
-  // A short phase between the bends goes into both: one with few nodes and lower rates.
+  // A short phase between the bends is added to both: that gives few nodes and lower rates.
   return ramp.straight < shortest ? WholeRamp{phase(ramp.bend + ramp.straight), 0}
                                   : WholeRamp{phase(ramp.bend), phase(ramp.straight)};
 }
@@ -133,7 +133,7 @@ class LineWriter {
     nodes_.push_back({time, state_});
   }
 
-  /// Free of what rounding left.
+  /// Ends the profile at a rate, without the remains of rounding.
   void end(double rate) {
     state_.rate = rate;
     state_.acceleration = 0.0;
@@ -179,14 +179,15 @@ std::vector<LineNode> line_profile(double way, double from, double to, const Lin
     const double mean_time =
         0.5 * up.seconds() + static_cast<double>(cruise) / kNano + 0.5 * down.seconds();
     if (!(mean_time > 0.0)) {
-      refuse_slowness();  // Rates below what doubles of this size tell from 0.
+      refuse_slowness();  // The rates are below those that doubles of this size distinguish from 0.
     }
     return (way - 0.5 * (from * up.seconds() + to * down.seconds())) / mean_time;
   };
   double middle = between();
   const double highest = std::max(from, to);
   if (!(middle >= highest)) {
-    // The longer phases leave no room for a ramp up: the higher end's rate is kept for a while.
+    // The longer phases leave no room for a ramp up, so the rate of the higher end is kept for a
+    // while.
     const WholeRamp ramp = whole(fastest_ramp(std::abs(to - from), limits));
     up = from < to ? ramp : WholeRamp{};
     down = from < to ? WholeRamp{} : ramp;

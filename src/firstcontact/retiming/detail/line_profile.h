@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// Limits of a motion x(t) along a line.
+/// The limits of a motion x(t) along a line.
 struct LineLimits {
   double rate = 0.0;                                      ///< [1/s]
   double acceleration = 0.0;                              ///< [1/s^2]
@@ -25,7 +25,7 @@ struct LineState {
   double acceleration = 0.0;  ///< [1/s^2]
 };
 
-/// The end of a phase in which the jerk is constant (the acceleration, where jerk is not limited).
+/// The end of a phase of constant jerk (of constant acceleration, where jerk is not limited).
 struct LineNode {
   std::int64_t after = 0;  ///< [ns]  Since the node before; > 0.
   LineState state;
@@ -35,30 +35,34 @@ struct LineNode {
 /// 1e-16 / T^3 on a segment of length T.
 inline constexpr std::int64_t kShortestPhase = 1'000'000;  // [ns]
 
-/// [ns]  Rounded up.
+/// A time in whole nanoseconds, rounded up [ns].
 ///
-/// @throws std::invalid_argument beyond the 13 days up to which doubles tell nanoseconds apart
+/// @throws std::invalid_argument beyond 13 days, as doubles of seconds do not distinguish
+///         nanoseconds there
 [[nodiscard]] std::int64_t whole_nanoseconds_up(double seconds);
 
 /// [s]  The time of the fastest ramp that changes the rate by `change`.
 [[nodiscard]] double ramp_seconds(double change, const LineLimits& limits);
 
-/// The way of the fastest ramp from one rate to another: its mean rate times its time.
+/// The length of the fastest ramp from one rate to another: its mean rate times its time.
 [[nodiscard]] double ramp_way(double from, double to, const LineLimits& limits);
 
-/// [s]  The room that whole nanoseconds and the shortest phases need beside the fastest ramp.
+/// [s]  The time that whole nanoseconds and the shortest phases need in addition to the fastest
+/// ramp.
 inline constexpr double kRampRoom = 4e-3;
 
 /// Runs from x = 0 to x = `way`, from one rate to another, as fast as the limits allow.
 ///
-/// Accelerations are 0 at both ends. Times are rounded up to nanoseconds, and the rate between the
-/// ramps is set anew, so that the way stays. From rest to rest that is the time-optimal motion, but
-/// for phases below kShortestPhase and the rounding, and no limit is exceeded: longer phases lower
-/// the rate, the accelerations and the jerks. From other rates a limit may be exceeded by a
-/// relative 1e-6; the caller proves the result.
+/// Accelerations are 0 at both ends. Times are rounded up to nanoseconds. The rate between the
+/// ramps is computed anew, so that the length stays.
 ///
-/// Derivation: both ramps have a mean rate that is the mean of their ends, so that the rate p in
-/// between is given by  p (T1 / 2 + Tc + T2 / 2) = way - (from T1 + to T2) / 2.
+/// From rest to rest that is the time-optimal motion, except for phases below kShortestPhase and
+/// the rounding. No limit is exceeded: longer phases lower the rate, the accelerations and the
+/// jerks. From other rates a limit may be exceeded by a relative 1e-6; the caller proves the
+/// result.
+///
+/// Derivation: both ramps have a mean rate that is the mean of their ends. So the rate p in between
+/// follows from  p (T1 / 2 + Tc + T2 / 2) = way - (from T1 + to T2) / 2.
 ///
 /// @param way       > 0, at least ramp_way(from, to) with kRampRoom added to the ramp's time
 /// @param from, to  [1/s]  >= 0, at most the limit of the rate
@@ -66,7 +70,7 @@ inline constexpr double kRampRoom = 4e-3;
 [[nodiscard]] std::vector<LineNode> line_profile(double way, double from, double to,
                                                  const LineLimits& limits);
 
-/// [s]  The sum of the times of nodes, before rounding: the time of line_profile().
+/// [s]  The time of line_profile(), before rounding.
 [[nodiscard]] double line_seconds(double way, double from, double to, const LineLimits& limits);
 
 }  // namespace firstcontact::detail

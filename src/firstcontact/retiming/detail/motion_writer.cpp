@@ -8,7 +8,7 @@
 namespace firstcontact::detail {
 namespace {
 
-// No phase is shorter than a millisecond, so that no motion along an edge is slower for them.
+// No phase is shorter than a millisecond, so these limits make no motion along an edge slower.
 // Without them a way of 1e-300 would have infinite rates.
 constexpr double kMostRate = 1e6;           // [1/s]
 constexpr double kMostAcceleration = 1e10;  // [1/s^2]

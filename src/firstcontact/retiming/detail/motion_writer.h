@@ -14,12 +14,12 @@
 
 namespace firstcontact::detail {
 
-/// Where no joint has a jerk limit but the motion needs one: accelerations build up in 10 ms.
+/// Time in which accelerations build up where the motion needs a jerk limit and no joint has one.
 inline constexpr double kBuildUpTime = 0.01;  // [s]
 
 /// The limits of x on the edge from waypoint `edge` to the next, q = a + x (b - a).
 ///
-/// @param share       of the limits that may be used, in (0, 1]
+/// @param share       share of the limits that may be used, in (0, 1]
 /// @param needs_jerk  whether an edge whose joints have no jerk limit gets one by kBuildUpTime
 [[nodiscard]] LineLimits line_limits(const WaypointPath& path, std::size_t edge,
                                      const std::vector<RateLimits>& limits, double share,
@@ -34,13 +34,13 @@ class MotionWriter {
   /// Appends the nodes of a profile that runs from x = `from` to x = `to` of an edge.
   void follow(std::size_t edge, double from, double to, const std::vector<LineNode>& nodes);
 
-  /// Appends a point. Without accelerations these numbers are left out.
+  /// Appends a point. Without accelerations the point's are left out.
   void add(std::int64_t after, TimedPoint point);
 
   /// The state of all joints on an edge. At x = 0 and x = 1 it is the waypoint to the bit.
   [[nodiscard]] TimedPoint on_edge(std::size_t edge, const LineState& state) const;
 
-  /// [ns]  Of the last point.
+  /// [ns]  Time of the last point.
   [[nodiscard]] std::int64_t now() const { return motion_.points.back().time; }
 
   [[nodiscard]] TimedMotion take() { return std::move(motion_); }

@@ -8,9 +8,9 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr int kCellsOfPiece = 48;
-constexpr double kMostPathRate = 1e6;  // [1/s]  Of S; no motion is slower for it.
+constexpr double kMostPathRate = 1e6;  // [1/s]  Rate of S; it makes no motion slower.
 
-/// The greatest square of the rate at a place, by velocities alone.
+/// The greatest square of the rate at a place, by the limits of velocities alone.
 double greatest_square(const PathPlace& place, const std::vector<RateLimits>& limits,
                        double share) {
   double greatest = kMostPathRate * kMostPathRate;
@@ -25,10 +25,10 @@ double greatest_square(const PathPlace& place, const std::vector<RateLimits>& li
 }
 
 /// The limits over one cell: of z, the square of the rate at its begin, and of u, the acceleration
-/// of S in it.
+/// of S.
 ///
-/// Accelerations are limited at both ends of the cell, where z is z and z + 2 cell u. With its
-/// begin alone, a place with a slope of almost 0 would allow any u for the length of a cell.
+/// Accelerations are limited at both ends of the cell, where the square is z and z + 2 cell u.
+/// Limits at the begin alone would allow any u for a cell where the slope is almost 0.
 class CellLimits {
  public:
   CellLimits(const PathPlace& begin, const PathPlace& end, double cell,
@@ -41,7 +41,7 @@ class CellLimits {
     }
   }
 
-  /// [1/s^2]  By velocities alone.
+  /// [1/s^2]  The greatest z by the limits of velocities alone.
   [[nodiscard]] double greatest() const { return greatest_; }
 
   struct Range {
@@ -63,7 +63,7 @@ class CellLimits {
   }
 
  private:
-  /// |slope u + bend z| <= limit, with a slope that is not negative.
+  /// The limit |slope u + bend z| <= limit, with a slope that is not negative.
   struct Row {
     double slope;
     double bend;

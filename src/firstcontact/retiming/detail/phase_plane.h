@@ -18,7 +18,7 @@ class PathTiming {
     double t = 0.0;  ///< [s]
     double S = 0.0;
     double rate = 0.0;      ///< [1/s]
-    double integral = 0.0;  ///< [s]  Of S from 0 to t.
+    double integral = 0.0;  ///< [s]  Integral of S from 0 to t.
   };
 
   explicit PathTiming(std::vector<Knot> knots) : knots_(std::move(knots)) {}
@@ -32,9 +32,10 @@ class PathTiming {
     double rate = 0.0;          ///< [1/s]
     double acceleration = 0.0;  ///< [1/s^2]
   };
-  /// The mean of S over [t - window, t]: accelerations become continuous, with a jerk of at most
-  /// twice the acceleration per window. It takes `window` longer, rests at both ends, and stays on
-  /// the path.
+  /// The mean of S over [t - window, t].
+  ///
+  /// Its accelerations are continuous, with a jerk of at most twice the acceleration per window.
+  /// The motion takes `window` longer, rests at both ends, and stays on the path.
   [[nodiscard]] State averaged(double t, double window) const;
 
  private:
@@ -45,12 +46,13 @@ class PathTiming {
 
 /// Finds the fastest motion along a path from rest to rest.
 ///
-/// Source: H. Pham, Q.-C. Pham, "A new approach to time-optimal path parameterization based on
-/// reachability analysis", IEEE Transactions on Robotics 34 (2018): the squares of the rates from
-/// which the end can be reached, backward, then the fastest of them, forward. Limits hold at grid
-/// points only: the caller proves the motion that comes of it.
+/// Backward it finds the squares of the rates from which the end can be reached. Forward it takes
+/// the fastest of them. Limits hold at grid points only: the caller proves the motion that follows.
 ///
-/// @param share  of the limits, in (0, 1]
+/// Source: H. Pham, Q.-C. Pham, "A new approach to time-optimal path parameterization based on
+/// reachability analysis", IEEE Transactions on Robotics 34 (2018).
+///
+/// @param share  share of the limits, in (0, 1]
 [[nodiscard]] PathTiming phase_plane(const BlendedPath& path, const std::vector<RateLimits>& limits,
                                      double share);
 

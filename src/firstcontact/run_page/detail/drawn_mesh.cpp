@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSides = 32;  // Around a ball or a capsule.
-constexpr int kRings = 8;   // Of each half of a ball.
+constexpr int kSides = 32;  // Number of sides around a ball or a capsule.
+constexpr int kRings = 8;   // Number of rings of each half of a ball.
 
 bool is_point(const std::array<std::uint32_t, 3>& triangle) {
   return triangle[0] == triangle[1] && triangle[0] == triangle[2];
@@ -41,7 +41,7 @@ void append(std::vector<float>& vertices, const Vector3d& place) {
   }
 }
 
-/// Circles around the axis, from one pole to the other.
+/// Makes a capsule from circles around the axis, from one pole to the other.
 DrawnMesh capsule(const std::array<Vector3d, 2>& ends, double radius) {
   DrawnMesh drawn;
   drawn.origin = 0.5 * (ends[0] + ends[1]);

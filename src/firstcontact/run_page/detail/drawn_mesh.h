@@ -1,5 +1,5 @@
 /// @file
-/// What is drawn of a shape: its triangles, or the ball or the capsule that they stand for.
+/// The drawing of a shape: its triangles, or the ball or the capsule that they stand for.
 
 #pragma once
 
@@ -12,13 +12,17 @@
 
 namespace firstcontact::detail {
 
+/// A mesh as a page or an animation draws it.
 struct DrawnMesh {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]  Of the vertices, in the body frame.
-  std::vector<float> vertices;                       ///< [m]  x, y, z of each.
-  std::vector<std::uint32_t> corners;                ///< Three of each triangle; none of points.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]  Origin of the vertices, in the body
+                                                     ///< frame.
+  std::vector<float> vertices;                       ///< [m]  x, y, z of each vertex.
+  std::vector<std::uint32_t> corners;                ///< Three for each triangle; none for points.
 };
 
-/// Vertices are relative to the middle, so that single precision suffices far from the origin too.
+/// Makes the drawing of a shape.
+///
+/// Vertices are relative to the middle, so that single precision suffices far from the origin, too.
 [[nodiscard]] DrawnMesh drawn_mesh(const Shape& shape);
 
 }  // namespace firstcontact::detail

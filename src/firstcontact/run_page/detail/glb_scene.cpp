@@ -9,9 +9,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kPoints = 0;  // Modes of a primitive.
+constexpr int kPoints = 0;  // Modes of a primitive in glTF.
 constexpr int kTriangles = 4;
 
+/// A material of glTF.
+///
 /// @param rgb  linear
 Json material(const char* name, const std::array<double, 3>& rgb) {
   return {{"name", name},
@@ -78,7 +80,7 @@ void GlbScene::add(const GlbBody& body, const Shape& shape) {
 void GlbScene::add_motion(std::size_t node, const std::vector<GlbKey>& keys) {
   std::vector<float> times;
   std::vector<float> places;
-  std::vector<float> rotations;  // x, y, z, w of each.
+  std::vector<float> rotations;  // Components x, y, z, w of each.
   for (const GlbKey& key : keys) {
     times.push_back(key.time);
     for (const double x : key.place) {

@@ -18,10 +18,10 @@
 
 namespace firstcontact::detail {
 
-/// What colours a body.
+/// The kind of a body, which determines its colour.
 enum class GlbLook { free, scripted, resting };
 
-/// Where the centre of mass of a body is at one time, and how the body is turned.
+/// The place of a body's centre of mass at one time, and the body's rotation.
 struct GlbKey {
   float time = 0.0F;                                         ///< [s]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< [m]
@@ -33,7 +33,7 @@ struct GlbBody {
   std::string name;
   GlbLook look = GlbLook::free;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  Centre of mass.
-  std::vector<GlbKey> keys;  ///< At least one; times increase strictly. With one it rests.
+  std::vector<GlbKey> keys;  ///< At least one; times increase strictly. A body with one key rests.
 };
 
 /// Collects bodies: each is a node at its centre of mass, with its mesh below it.
@@ -42,7 +42,9 @@ class GlbScene {
   /// @param shape  lives as long as this; bodies that share one share its numbers
   void add(const GlbBody& body, const Shape& shape);
 
-  /// @param up  of the world; becomes y, as in glTF
+  /// Writes the scene as binary glTF.
+  ///
+  /// @param up  up direction of the world; becomes y, as in glTF
   [[nodiscard]] std::string write(const Eigen::Vector3d& up);
 
  private:
@@ -61,7 +63,7 @@ class GlbScene {
   std::map<std::pair<ShapeKey, GlbLook>, std::size_t> mesh_numbers_;
   nlohmann::ordered_json meshes_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json nodes_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json bodies_ = nlohmann::ordered_json::array();  // Nodes of bodies.
+  nlohmann::ordered_json bodies_ = nlohmann::ordered_json::array();  // Nodes of the bodies.
   nlohmann::ordered_json channels_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json samplers_ = nlohmann::ordered_json::array();
 };

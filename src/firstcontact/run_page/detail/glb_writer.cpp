@@ -12,7 +12,7 @@ namespace {
 constexpr int kFloat = 5126;        // GL_FLOAT
 constexpr int kUnsignedInt = 5125;  // GL_UNSIGNED_INT
 
-/// The least byte first, whatever the machine has.
+/// Appends a number, the least significant byte first, whatever the machine has.
 void append(std::string& bytes, std::uint32_t number) {
   for (int k = 0; k < 4; ++k) {
     bytes += static_cast<char>(number >> (8 * k));

@@ -13,23 +13,25 @@
 
 namespace firstcontact::detail {
 
+/// Writes the container of binary glTF.
+///
 /// Source: Khronos Group, "glTF 2.0 Specification" (2021), chapters 3.6 and 4.
 class GlbWriter {
  public:
-  /// What a row of numbers is for: the two kinds of buffer views that have a target.
+  /// The use of a row of numbers: the two kinds of buffer views that have a target.
   enum class Target : int { none = 0, vertices = 34962, indices = 34963 };
 
   /// Adds vectors of single precision, with their bounds.
   ///
-  /// @param numbers  of one vector after another; at least one
-  /// @param width    numbers of a vector: 1, 3 or 4
-  /// @returns  the number of the accessor
+  /// @param numbers  numbers of one vector after another; at least one
+  /// @param width    count of numbers of a vector: 1, 3 or 4
+  /// @returns the number of the accessor
   std::size_t add(std::span<const float> numbers, std::size_t width, Target target);
 
   /// Adds indices of vertices.
   std::size_t add(std::span<const std::uint32_t> indices);
 
-  /// The file.
+  /// Returns the contents of the file.
   ///
   /// @throws std::invalid_argument beyond 4 GiB
   /// @param document  with all but "asset", "buffers", "bufferViews" and "accessors"
