@@ -17,7 +17,7 @@ constexpr std::size_t kCount = CoordinateSegment::kCoefficients;
 /// 2 pi to 107 bits.
 constexpr DoubleDouble kTurn{6.283185307179586, 2.4492935982947064e-16};
 
-/// A few dozen double-double operations, each within 2^-102 of sums of its operands.
+/// [-]  Covers a few dozen double-double operations, each within 2^-102 of sums of its operands.
 constexpr double kConstructionError = 0x1p-96;
 
 /// Pascal's triangle: binomials[j][k] is "j over k".
@@ -46,7 +46,8 @@ DoubleDouble shifted(const CoordinateSegment& segment, const DoubleDouble& s, st
   return sum;
 }
 
-/// Sum over j >= k of "j over k" |a_j|: bounds the k-th coefficient about any s in [0, 1].
+/// The sum over j >= k of "j over k" |a_j|, which bounds the k-th coefficient about any s in [0,
+/// 1].
 double size_of(const CoordinateSegment& segment, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = k; j < segment.count; ++j) {
@@ -55,7 +56,7 @@ double size_of(const CoordinateSegment& segment, std::size_t k) {
   return sum;
 }
 
-/// How far `shifted` may be from exact: binomial coefficients are at most 35.
+/// A bound of the error of `shifted`; binomial coefficients are at most 35.
 double noise(const CoordinateSegment& segment, std::size_t k) {
   return 128.0 * segment.error + 0x1p-94 * size_of(segment, k);
 }
@@ -72,7 +73,8 @@ CoordinateSegment at_rest(const DoubleDouble& position, double t_begin, double t
   throw std::invalid_argument("CoordinatePath: " + message);
 }
 
-/// Planners make paths by the thousand: no message is put together before it is needed.
+/// Throws if a condition fails. Planners make paths by the thousand, so no message is made before
+/// it is needed.
 void require(bool condition, const char* message) {
   if (!condition) {
     refuse(message);
@@ -81,7 +83,7 @@ void require(bool condition, const char* message) {
 
 void require_numbers(std::span<const double> values, const char* name) {
   for (const double value : values) {
-    // Negated, so that NaN is refused too. Angles beyond are refused by sine_cosine.
+    // Negated, so that NaN is refused, too. sine_cosine() refuses greater angles.
     if (!(std::abs(value) <= kMaximumAngle)) {
       refuse(std::string(name) + " must be finite and at most 1e8 in size");
     }
@@ -96,7 +98,7 @@ void require_times(std::span<const double> times) {
   }
 }
 
-/// Values at the ends of a piece: position, velocity, acceleration; scaled to s.
+/// Position, velocity and acceleration at both ends of a piece; scaled to s.
 struct Ends {
   std::array<DoubleDouble, 3> begin;
   std::array<DoubleDouble, 3> end;
@@ -135,8 +137,9 @@ CoordinateSegment interpolate(const Ends& ends, std::size_t orders, double t_beg
   return s;
 }
 
-/// Whole turns to take off a way, so that at most half a turn is left; none of half a turn as
-/// doubles have it, so that it goes the way that the numbers say.
+/// The whole turns to take off a way, so that at most half a turn is left.
+///
+/// It is 0 for half a turn as doubles have it, so that this goes the way of its numbers.
 double whole_turns(double way) {
   constexpr double kHalfTurn = 0.5 * kTurn.hi;
   if (std::abs(way) <= kHalfTurn) {
@@ -145,8 +148,9 @@ double whole_turns(double way) {
   return std::copysign(std::ceil(std::abs(way) / kTurn.hi - 0.5), way);
 }
 
-/// Positions with the whole turns that were taken off the ways before them taken off, too: one path
-/// without jumps, which joints that mimic this one can follow.
+/// Unwinds positions: whole turns that were taken off a way are also taken off all later positions.
+///
+/// That gives one path without jumps, which joints that mimic this one can follow.
 class Winding {
  public:
   explicit Winding(Turning turning) : turning_(turning) {}
@@ -161,15 +165,17 @@ class Winding {
     return DoubleDouble(position) - DoubleDouble(turns_) * kTurn;
   }
 
-  /// [rad]  How far `unwound` may be from exact: of an integer below 2^25 times 2 pi.
+  /// [rad]  Bound of the error of `unwound`: 2 pi times an integer below 2^25.
   [[nodiscard]] double error() const { return kConstructionError * std::abs(turns_); }
 
  private:
   Turning turning_;
-  double turns_ = 0.0;  // Taken off so far.
+  double turns_ = 0.0;  // Number of turns taken off so far.
 };
 
-/// `columns`: positions, velocities, accelerations, as many as there are.
+/// The pieces through points.
+///
+/// @param columns  positions, velocities, accelerations, as many as there are
 std::vector<CoordinateSegment> through(std::span<const double> times,
                                        std::span<const std::span<const double>> columns,
                                        Turning turning) {
@@ -235,11 +241,11 @@ CoordinateSegment scaled_polynomial(const std::vector<double>& coefficients, dou
 
 }  // namespace
 
-/// In doubles, for coordinates of a few turns at most.
+/// The state in doubles, for coordinates of a few turns at most.
 ///
-/// Derivation, u = 2^-53: s is within 4 u of itself, which changes a term of n - 1 factors s by
-/// 4 (n - 1) u; Horner's scheme adds two roundings a term to the value, and as many again to each
-/// further derivative; coefficients are rounded. What does not change, a_0, is added exactly.
+/// Derivation, u = 2^-53: s is within 4 u of itself. That changes a term of n - 1 factors s by 4
+/// (n - 1) u. Horner's scheme adds two roundings a term to the value, and as many again to each
+/// further derivative. Coefficients are rounded. The constant a_0 is added exactly.
 CoordinateSegment::State CoordinateSegment::quick_state(double t) const {
   const double unit = 6.0 * 0x1p-53 * static_cast<double>(count);
   const double per_length = 1.0 / (t_end - t_begin);

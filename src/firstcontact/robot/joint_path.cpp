@@ -34,7 +34,7 @@ bool is_identity(const PreciseTransform& X) {
          is_zero(X.columns[1] - identity.columns[1]) && is_zero(X.columns[2] - identity.columns[2]);
 }
 
-/// Rot(axis, angle) v = along + cos across + sin turned.
+/// The terms of Rot(axis, angle) v = along + cos across + sin turned.
 struct Turned {
   DoubleDoubleVector3 along;
   DoubleDoubleVector3 across;
@@ -153,7 +153,7 @@ JointState JointPath::state(const Polynomial& joint, double t) {
     state.p_PQ = state.p_PQ + q.value * slide.direction;
     state.pivot_velocity += q.rate * slide.direction.value();
     state.pivot_acceleration += q.acceleration * slide.direction.value();
-    // Of a sum and a product: 2^-50 of either.
+    // A sum and a product err by 2^-50 of each.
     state.position_error += 1.001 * q.value_error + 0x1p-90 * std::abs(q.value.hi);
     state.pivot_velocity_error += 1.001 * q.rate_error + 0x1p-50 * std::abs(q.rate);
     state.pivot_acceleration_error +=
@@ -194,7 +194,7 @@ JointBounds JointPath::bounds(double t_from, double t_to) const {
   if (joint.angle) {
     bounds.angle = joint.angle->bounds(t_from, t_to);
   }
-  // Of two slides, as they are across each other, the root of the squares would do too.
+  // The root of the squares would hold for two slides, too, as they are across each other.
   for (const Slide& slide : joint.slides) {
     const CoordinateSegment::Bounds b = slide.coordinate.bounds(t_from, t_to);
     bounds.pivot.rate += b.rate;

@@ -17,22 +17,24 @@ namespace {
 
 constexpr std::size_t kCount = CoordinateSegment::kCoefficients;
 
-/// Halvings until a part of a piece is taken to be beyond its limit.
+/// Number of halvings after which a window counts as beyond its limit.
 constexpr int kDepth = 45;
 
-/// A polynomial on [0, 1] by its Bernstein coefficients, between whose least and greatest it lies:
-/// G. Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, sections 5.1 and 5.4.
+/// A polynomial on [0, 1] by its Bernstein coefficients; it lies between the least and the
+/// greatest.
+///
+/// Source: G. Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, sections 5.1 and 5.4.
 struct Bernstein {
   std::array<double, kCount> b = {};
   std::size_t count = 1;
-  double error = 0.0;  // Of the polynomial anywhere, and of the coefficients.
+  double error = 0.0;  // Error of the polynomial anywhere, and of the coefficients.
 
   [[nodiscard]] double greatest() const { return *std::max_element(b.begin(), b.begin() + size()); }
   [[nodiscard]] double least() const { return *std::min_element(b.begin(), b.begin() + size()); }
   [[nodiscard]] double first() const { return b[0]; }
   [[nodiscard]] double last() const { return b[count - 1]; }
 
-  /// Both halves, by de Casteljau's algorithm, whose means round no more than once each.
+  /// Both halves, by de Casteljau's algorithm. Its means round at most once each.
   [[nodiscard]] std::pair<Bernstein, Bernstein> halves() const {
     std::pair<Bernstein, Bernstein> result{*this, *this};
     std::array<double, kCount> row = b;
@@ -58,7 +60,7 @@ double binomial(std::size_t n, std::size_t k) {
   return value;
 }
 
-/// sign p(s) - limit, of a polynomial p by its powers' coefficients.
+/// The polynomial sign p(s) - limit, from the coefficients of the powers of p.
 Bernstein excess_of(const std::array<double, kCount>& a, std::size_t count, double error,
                     double sign, double limit) {
   Bernstein result;
@@ -74,12 +76,12 @@ Bernstein excess_of(const std::array<double, kCount>& a, std::size_t count, doub
     }
     result.b[i] = sum;
   }
-  // A dozen roundings here, and one more for each of up to kDepth halvings and their rows.
+  // A dozen roundings here; another one for each of up to kDepth halvings and their rows.
   result.error = error + 0x1p-52 * (16.0 + 8.0 * kDepth) * size;
   return result;
 }
 
-/// q(s) of a piece, or dq/ds.
+/// The excess of q(s) of a piece, or of dq/ds.
 Bernstein excess_of(const CoordinateSegment& segment, bool of_rate, double sign, double limit) {
   std::array<double, kCount> a{};
   const std::size_t order = of_rate ? 1 : 0;
@@ -90,17 +92,17 @@ Bernstein excess_of(const CoordinateSegment& segment, bool of_rate, double sign,
   return excess_of(a, count, (of_rate ? 7.0 : 1.0) * segment.error, sign, limit);
 }
 
-/// One piece against one limit, in the variable s of the piece.
+/// The comparison of one piece with one limit, in the variable s of the piece.
 class PieceReport {
  public:
   explicit PieceReport(double tolerance) : tolerance_(tolerance) {}
 
   void run(const Bernstein& excess) { look(excess, 0.0, 1.0, 0); }
 
-  /// In s, in order.
+  /// The windows of s beyond the limit, in order.
   [[nodiscard]] const std::vector<TimeWindow>& beyond() const { return beyond_; }
 
-  /// The greatest value of `excess`, to the tolerance, and where.
+  /// The greatest value of `excess`, to the tolerance, and its place.
   [[nodiscard]] std::pair<double, double> greatest(const Bernstein& excess) const {
     std::pair<double, double> best{-std::numeric_limits<double>::infinity(), 0.0};
     climb(excess, 0.0, 1.0, 0, best);
@@ -145,7 +147,7 @@ class PieceReport {
   std::vector<TimeWindow> beyond_;
 };
 
-/// Outward: a rounded time is within one unit of the exact one.
+/// A window in step time, rounded outward: a rounded time is within one unit of the exact one.
 TimeWindow in_step(const CoordinateSegment& segment, const TimeWindow& s) {
   const double length = segment.t_end - segment.t_begin;
   TimeWindow t{segment.t_begin, segment.t_end};
@@ -158,7 +160,7 @@ TimeWindow in_step(const CoordinateSegment& segment, const TimeWindow& s) {
   return t;
 }
 
-/// One limit over all pieces of a joint.
+/// The comparison of one limit with all pieces of a joint.
 class LimitCheck {
  public:
   LimitCheck(std::size_t joint, JointLimit what, double limit, double tolerance)
@@ -191,7 +193,8 @@ class LimitCheck {
   }
 
  private:
-  /// Those of one piece that are beyond in both directions come one direction after the other.
+  /// Joins and sorts the intervals. Those of one piece with both signs come one sign after the
+  /// other.
   void join_intervals() {
     std::vector<TimeWindow> all;
     all.swap(violation_.intervals);

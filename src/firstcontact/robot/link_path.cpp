@@ -16,10 +16,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A few rounded operations on vectors of three.
+/// [-]  Rounding of a few operations on vectors of three.
 constexpr double kRounding = 0x1p-49;
 
-/// Sums and products of up to some hundred joints' bounds.
+/// [-]  Factor that covers sums and products of the bounds of some hundred joints.
 constexpr double kUp = 1.0 + 0x1p-40;
 
 constexpr double kHalfTurn = 3.141592653589793;
@@ -160,7 +160,7 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Roun
   const double T = std::max(t_to - t, t - t_from) * kUp;
   const LinkPose& pose = end.pose;
   const Vector3d centre = pose.p_OL + pose.R_FL * box.centre;
-  double v = 0.0;  // Of the box's points, as seen from the child.
+  double v = 0.0;  // Bound for the box's points, as seen from the child.
   double bound = 0.0;
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {

@@ -10,7 +10,7 @@ namespace {
 
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// Beyond these sizes motions refuse coordinates and quaternions.
+/// Motions refuse coordinates and quaternions beyond these sizes.
 constexpr double kGreatest = 1e60;
 constexpr double kLeast = 1e-60;
 
@@ -38,7 +38,7 @@ std::string wrong_limits(const JointLimits& limits) {
   return {};
 }
 
-/// Empty if the joint's own numbers are sound.
+/// Describes what is wrong with the joint's own numbers; empty if they are sound.
 std::string wrong_number(const Joint& joint) {
   if (!is_pose(joint.X_PJ)) {
     return "its origin must be finite, at most 1e60 in size, and its quaternion not zero";
@@ -55,10 +55,10 @@ std::string wrong_number(const Joint& joint) {
   return wrong_limits(joint.limits);
 }
 
-/// Where a walk along parents, or along mimicked joints, has been.
+/// State of a link or joint in a walk along parents, or along mimicked joints.
 enum class Visit { none, open, done };
 
-/// Collects what is wrong, step by step: each needs what the steps before it found sound.
+/// Collects defects, step by step: each step needs the parts that those before it found sound.
 class DefectSearch {
  public:
   explicit DefectSearch(const RobotDescription& robot)
@@ -146,7 +146,7 @@ class DefectSearch {
     }
   }
 
-  /// Every link hangs on the one root. Each link is walked over once.
+  /// Checks that every link hangs on the one root. Each link is visited once.
   void check_tree() {
     std::optional<std::size_t> root;
     std::vector<Visit> visits(robot_.links.size(), Visit::none);

@@ -27,20 +27,20 @@ struct RobotModel::Data {
   RobotDescription description;
   Index links;
   Index joints;
-  std::vector<std::size_t> parent_link;                  // Of each joint.
-  std::vector<std::size_t> child_link;                   // Of each joint.
-  std::vector<std::optional<std::size_t>> parent_joint;  // Of each link.
-  std::vector<std::size_t> depth;                        // Of each link: joints above it.
+  std::vector<std::size_t> parent_link;                  // For each joint.
+  std::vector<std::size_t> child_link;                   // For each joint.
+  std::vector<std::optional<std::size_t>> parent_joint;  // For each link.
+  std::vector<std::size_t> depth;  // For each link the number of joints above it.
   std::size_t root = 0;
-  std::vector<std::size_t> rigid_root;                  // Of each link.
-  std::vector<PreciseTransform> from_rigid_root;        // Of each link.
-  std::vector<std::shared_ptr<const JointPath>> tails;  // Of each link.
-  std::vector<detail::JointFrame> frames;               // Of each joint.
+  std::vector<std::size_t> rigid_root;                  // For each link.
+  std::vector<PreciseTransform> from_rigid_root;        // For each link.
+  std::vector<std::shared_ptr<const JointPath>> tails;  // For each link.
+  std::vector<detail::JointFrame> frames;               // For each joint.
 
   void lay_out();
 };
 
-/// Links rigid to each other are one, in the frame of the first of them.
+/// Joins links that are rigid to each other, in the frame of the first of them.
 void RobotModel::Data::lay_out() {
   const std::size_t count = description.links.size();
   rigid_root.resize(count);

@@ -67,7 +67,7 @@ void require_match(const Joint& joint, const JointMotion& motion) {
   }
 }
 
-/// The segment that holds a window of time, which none of its ends divides.
+/// The segment that holds a window of time, inside of which no segment ends.
 const CoordinateSegment& segment_of(const CoordinatePath& path, [[maybe_unused]] double t_begin,
                                     double t_end) {
   const auto ends_before = [](const CoordinateSegment& s, double t) { return s.t_end < t; };
@@ -85,7 +85,7 @@ std::size_t source_of(const RobotModel& model, std::size_t joint) {
   return joint;
 }
 
-/// A joint's coordinate, through those that it mimics.
+/// The path of a joint's coordinate, through those that it mimics.
 const CoordinatePath& source_path(const RobotModel& model, const std::vector<AnyMotion>& motions,
                                   std::size_t joint) {
   return std::get<CoordinatePath>(motions[source_of(model, joint)]);
@@ -108,7 +108,7 @@ std::size_t piece_of(const Motion& motion, double t_begin) {
   return static_cast<std::size_t>(next - breaks.begin()) - 1;
 }
 
-/// A joint that moves, over one piece of its own.
+/// The path of a joint that moves, over one of its pieces.
 JointPath path_of(const RobotModel& model, const std::vector<AnyMotion>& motions, std::size_t index,
                   double t_begin, double t_end) {
   const detail::JointFrame& frame = model.frame(index);
@@ -133,8 +133,9 @@ JointPath path_of(const RobotModel& model, const std::vector<AnyMotion>& motions
   return frame.path->moved(q, {});
 }
 
-/// Refuses coordinates that run so far between what was given, or by a mimic's multiplier, that
-/// sines lose their error bounds.
+/// Refuses coordinates so large that sines lose their error bounds.
+///
+/// They may grow between given points, or by a mimic's multiplier.
 void require_sizes(const Joint& joint, const CoordinatePath& path, double multiplier,
                    double offset) {
   for (const CoordinateSegment& segment : path.segments()) {
@@ -171,7 +172,7 @@ void require_sizes(const RobotModel& model, const std::vector<AnyMotion>& motion
   }
 }
 
-/// Times at which pieces end, in any order and as often as they are found.
+/// Adds the times at which pieces end, in any order and with repetitions.
 void add_ends(std::vector<double>& ends, const CoordinatePath& path) {
   for (const CoordinateSegment& segment : path.segments()) {
     ends.push_back(segment.t_end);
@@ -268,8 +269,10 @@ Pieces pieces_of(const Motion& motion) {
 
 }  // namespace
 
-/// Paths of joints lead from the link that moves before them to their child; what fixed joints add
-/// beyond is a path of its own.
+/// The data of a motion.
+///
+/// Paths of joints lead from the link that moves before them to their child. Fixed joints beyond
+/// that have a path of their own.
 struct RobotMotion::Data {
   std::vector<AnyMotion> motions;
   Motion base;

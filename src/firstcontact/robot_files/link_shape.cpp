@@ -29,7 +29,7 @@ MeshReading read_scaled(const MeshGeometry& file, const ReadingOptions& options)
 
 Shape make_point() { return Shape({.vertices = {{0.0, 0.0, 0.0}}, .triangles = {{0, 0, 0}}}); }
 
-/// Along z, about the origin.
+/// Makes a segment along z, about the origin.
 Shape make_segment(double length) {
   if (length == 0.0) {
     return make_point();
@@ -38,8 +38,9 @@ Shape make_segment(double length) {
                     .triangles = {{0, 1, 1}}});
 }
 
-/// The shape where a coordinate of every vertex is 0 instead: of a box of size 1 along it, or a
-/// cylinder of length 1.
+/// Flattens a shape: the chosen coordinates of every vertex become 0.
+///
+/// The shape is a box of size 1 along them, or a cylinder of length 1.
 Shape flattened(const Shape& thick, const std::array<bool, 3>& flat) {
   Mesh mesh = thick.mesh();
   for (Eigen::Vector3d& vertex : mesh.vertices) {

@@ -12,19 +12,22 @@
 
 namespace firstcontact {
 
-/// The shape of a source, in its frame G. Coordinates of a mesh are scaled in double precision:
-/// certificates hold for the rounded products. A mirrored mesh keeps its inside.
+/// Makes the shape of a source, in its frame G.
 ///
-/// @throws ParseError as read_mesh; std::invalid_argument where a number is out of its range
+/// Coordinates of a mesh are scaled in double precision, and certificates hold for the rounded
+/// products. A mirrored mesh keeps its inside.
+///
+/// @throws ParseError as read_mesh
+/// @throws std::invalid_argument where a number is out of its range
 [[nodiscard]] FIRSTCONTACT_API Shape make_shape(const GeometrySource& source);
 
-/// A shape and what became of the file that it is from.
+/// A shape, and the report on its file.
 struct ShapeReading {
   Shape shape;
-  std::optional<FileReport> report;  ///< Of a mesh.
+  std::optional<FileReport> report;  ///< Only for a mesh.
 };
 
-/// As make_shape().
+/// Makes the shape as make_shape() does, with the report on its file.
 [[nodiscard]] FIRSTCONTACT_API ShapeReading read_shape(const GeometrySource& source,
                                                        const ReadingOptions& options = {});
 

@@ -19,10 +19,10 @@ using detail::same_word;
 using detail::turned_xyz;
 using detail::WordReader;
 
-/// A bone as the file has it: directions in the frame of the whole figure at zero.
+/// A bone of the file: directions are in the frame of the whole figure at zero.
 struct AsfBone {
   std::string name;
-  Eigen::Vector3d reach = Eigen::Vector3d::Zero();  // [m]  From its origin to its end.
+  Eigen::Vector3d reach = Eigen::Vector3d::Zero();  // [m]  Vector from its origin to its end.
   Eigen::Quaterniond axis = Eigen::Quaterniond::Identity();
   std::vector<std::size_t> dof;
 };
@@ -75,7 +75,7 @@ class AsfReader {
 
   [[nodiscard]] bool at_section() const { return words_.at_end() || words_.peek().front() == ':'; }
 
-  /// Free text goes on to the next section.
+  /// Passes over free text, up to the next section.
   void pass_over() {
     do {
       (void)words_.word("");
@@ -102,7 +102,7 @@ class AsfReader {
     }
   }
 
-  /// Three angles and the order of their axes.
+  /// Reads three angles and the order of their axes.
   Eigen::Quaterniond read_axis() {
     const Eigen::Vector3d angles = words_.vector("an angle of the axis");
     words_.expect("XYZ");
@@ -215,7 +215,7 @@ class AsfReader {
     }
   }
 
-  /// Limits may be `-inf` and `inf`.
+  /// Passes over limits, which may be `-inf` and `inf`.
   void pass_over_numbers() {
     const auto is_number = [](std::string_view word) {
       return !word.empty() &&
@@ -270,7 +270,7 @@ class AsfReader {
     placed_as_.emplace("root", 0);
   }
 
-  /// In its own frame, which the axis turns against that of the figure.
+  /// Places a bone in its own frame, which the axis turns against that of the figure.
   void place(const std::string& name, std::size_t parent) {
     const auto found = bones_.find(name);
     if (found == bones_.end()) {
@@ -299,7 +299,7 @@ class AsfReader {
   AsfSkeleton skeleton_;
   std::map<std::string, AsfBone> bones_;
   std::map<std::string, std::size_t> placed_as_;
-  std::vector<Eigen::Quaterniond> axes_;  // Of the placed bones.
+  std::vector<Eigen::Quaterniond> axes_;  // Axes of the placed bones.
   std::vector<Eigen::Vector3d> reaches_;
   bool placed_ = false;
 };

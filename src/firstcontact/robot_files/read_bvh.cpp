@@ -22,7 +22,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 struct Channel {
   std::size_t bone = 0;
   std::size_t axis = 0;  // x, y, z
-  bool turns = true;     // Else it is a position.
+  bool turns = true;     // Whether it is an angle; else it is a position.
 };
 
 class BvhReader {
@@ -69,7 +69,7 @@ class BvhReader {
     }
   }
 
-  /// What a joint holds beside its offset.
+  /// Reads an item of a joint other than its offset.
   void read_item() {
     const std::size_t bone = open_.back();
     if (same_word(words_.peek(), "CHANNELS")) {

@@ -28,10 +28,10 @@ struct Members {
   std::set<std::size_t> joints;
 };
 
-/// Elements that name what the robot does not have, of one kind.
+/// Elements of one kind that name things which the robot does not have.
 struct Strays {
   std::string kind;  ///< "links that the robot does not have"
-  ParseError first;  ///< What is told of a single one.
+  ParseError first;  ///< Error for a single one.
   std::size_t count;
   std::vector<std::string> names;  ///< Each once.
 };
@@ -59,7 +59,7 @@ class SrdfReader {
   }
 
  private:
-  /// Reads a part; what is wrong with it is told with all other errors.
+  /// Reads an element; its errors are reported together with all others.
   void attempt(const std::function<void()>& read) {
     try {
       read();
@@ -95,7 +95,7 @@ class SrdfReader {
     return {strays.first.path(), strays.first.line().value_or(1), message};
   }
 
-  /// Notes an element that names what the robot does not have; it has no effect.
+  /// Notes an element that names something which the robot does not have; it has no effect.
   void stray(const XmlElement& where, const char* kind, const std::string& name,
              const std::string& message) {
     auto known = std::find_if(strays_.begin(), strays_.end(),
@@ -118,7 +118,7 @@ class SrdfReader {
     }
   }
 
-  /// None, with a warning, if the robot has no such link.
+  /// The link of an attribute; none, with a warning, if the robot has no such link.
   std::optional<std::size_t> link(const XmlElement& element, const char* attribute) {
     const std::string name = xml_.text(element, attribute);
     const std::optional<std::size_t> found = robot_.find_link(name);
@@ -281,7 +281,8 @@ class SrdfReader {
     if (!base || !tip) {
       return;
     }
-    const std::size_t top = robot_.last_common_ancestor(*base, *tip);  // Of two arms their torso.
+    // For two arms it is their torso.
+    const std::size_t top = robot_.last_common_ancestor(*base, *tip);
     add_link(members, top);
     for (const std::size_t end : {*base, *tip}) {
       for (const std::size_t joint : robot_.chain(top, end)) {
@@ -347,13 +348,13 @@ class SrdfReader {
   const XmlElement& root_;
   RobotSemantics result_;
   std::vector<Strays> strays_;
-  std::set<std::pair<std::string, std::string>> names_of_strays_;  // By kind.
+  std::set<std::pair<std::string, std::string>> names_of_strays_;  // Names by kind.
   std::map<std::pair<std::size_t, std::size_t>, std::string> disabled_;
   std::map<std::string, const XmlElement*, std::less<>> group_elements_;
   std::vector<const XmlElement*> groups_;  // In the order of the file.
   std::map<const XmlElement*, Members> members_;
-  std::set<const XmlElement*> broken_;                             // Groups whose errors are told.
-  std::set<std::pair<std::string, std::string>> names_of_states_;  // By group.
+  std::set<const XmlElement*> broken_;  // Groups whose errors are reported.
+  std::set<std::pair<std::string, std::string>> names_of_states_;  // Names by group.
 };
 
 }  // namespace

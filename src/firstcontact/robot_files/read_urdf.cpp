@@ -47,7 +47,7 @@ class UrdfReader {
         all_joints = false;
       }
     }
-    if (all_joints) {  // Else a broken joint would be told again by what hangs on it.
+    if (all_joints) {  // Otherwise the elements that hang on a broken joint would report it again.
       find_defects(root);
     }
     log_.throw_errors();
@@ -65,7 +65,8 @@ class UrdfReader {
     }
   }
 
-  /// Gazebo takes elements of SDF from there, as parts of the model where there is no reference.
+  /// Checks <gazebo> elements: without a reference Gazebo takes elements of SDF there as parts of
+  /// the model.
   void check_gazebo(const XmlElement& root) {
     constexpr std::array<std::string_view, 4> kParts = {"link", "joint", "model", "include"};
     for (const XmlElement* gazebo : xml_.children(root, "gazebo")) {
@@ -110,8 +111,8 @@ class UrdfReader {
   detail::UrdfContext context_;
   detail::LinkReader link_reader_;
   RobotDescription robot_;
-  std::vector<const XmlElement*> links_;   // Of each link.
-  std::vector<const XmlElement*> joints_;  // Of each joint.
+  std::vector<const XmlElement*> links_;   // Element of each link.
+  std::vector<const XmlElement*> joints_;  // Element of each joint.
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// Bounds of the motion of a part at the tip of a chain of joints.
+/// Bounds of the motion of the last link of a chain of joints.
 
 #pragma once
 
@@ -10,21 +10,25 @@
 
 namespace firstcontact::detail {
 
-/// Bounds of the sizes of the derivatives of a part's points, joint by joint from the tip to F. The
-/// derivation stands at LinkPath::window().
+/// Bounds of the sizes of the derivatives of a link's points, joint by joint from the tip to F.
+///
+/// LinkPath::window() has the derivation.
 class ChainBounds {
  public:
-  /// @param beyond  [m]  of any point of the part from the origin at the tip
-  /// @param reach   [m]  of the part from its centre
-  /// @param T       [-]  from the time at which places are known to any other of the window
+  /// @param beyond  [m]  distance of any point of the link from the origin at the tip
+  /// @param reach   [m]  distance of any point of the link from its centre
+  /// @param T       [-]  time from the instant of known places to any other of the window
   ChainBounds(double beyond, double reach, double T) : beyond_(beyond), reach_(reach), T_(T) {}
 
-  /// A joint that rests, or what is fixed between joints, of that length [m].
+  /// Passes a joint that rests, or a fixed transform between joints, of that length [m].
   void pass_rest(double length) { beyond_ += length; }
 
-  /// @param from_axis  [m]  of the part's centre at the time known; its error included
-  /// @param step       [m]  from the parent's origin to the pivot
-  /// @param lever      [m]  from the pivot to the child's origin
+  /// Passes a joint that moves.
+  ///
+  /// @param from_axis  [m]  distance of the link's centre from the axis at the known time; with its
+  ///                   error
+  /// @param step       [m]  distance from the parent's origin to the pivot
+  /// @param lever      [m]  distance from the pivot to the child's origin
   void pass(const JointBounds& bounds, double from_axis, double step, double lever) {
     const auto& [w1, w2, w3] = bounds.angle;
     beyond_ += lever;
@@ -44,18 +48,19 @@ class ChainBounds {
 
   [[nodiscard]] CoordinateSegment::Bounds bounds() const { return {v_ * kUp, a_ * kUp, j_ * kUp}; }
 
-  /// [per metre]  The most that is added for each metre by which the part reaches farther.
+  /// [per metre]  The greatest growth of the bounds for each metre by which the link reaches
+  /// farther.
   ///
-  /// rho is a concave function of the reach, and with it are all the bounds.
+  /// rho is a concave function of the reach, and so are all the bounds.
   [[nodiscard]] CoordinateSegment::Bounds per_metre() const {
     return {more_.rate * kUp, more_.acceleration * kUp, more_.jerk * kUp};
   }
 
  private:
-  /// Sums and products of up to some hundred joints' bounds.
+  /// Factor above 1 that covers sums and products of the bounds of some hundred joints.
   static constexpr double kUp = 1.0 + 0x1p-40;
 
-  /// The length of (x, y), rounded up: std::hypot takes a multiple of the time.
+  /// The length of (x, y), rounded up; std::hypot takes several times as long.
   static double length_of(double x, double y) {
     constexpr double kUnderflow = 1e-290;
     const double square = x * x + y * y;
@@ -68,7 +73,7 @@ class ChainBounds {
   double v_ = 0.0;
   double a_ = 0.0;
   double j_ = 0.0;
-  CoordinateSegment::Bounds more_;  // Derivatives of these by the reach.
+  CoordinateSegment::Bounds more_;  // Derivatives of the bounds by the reach.
 };
 
 }  // namespace firstcontact::detail

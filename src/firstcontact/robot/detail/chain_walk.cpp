@@ -8,7 +8,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// F does not turn, so that large numbers cancel before they are rounded: before the first joint.
+/// The step to a joint's pivot. F does not turn, so before the first joint large numbers cancel
+/// before they are rounded.
 Vector3d step_to(const JointState& joint, bool is_first, const DoubleDoubleVector3& p_FO) {
   return (is_first ? joint.p_PQ - p_FO : joint.p_PQ).value();
 }
@@ -32,7 +33,7 @@ PassedJoint pass(const JointState& joint, bool is_first, const DoubleDoubleVecto
   return passed;
 }
 
-/// The same of a joint that rests: one step, and the axes after it.
+/// Passes a joint that rests: one step, and the axes after it.
 PassedJoint pass_rest(const JointState& joint, bool is_first, const DoubleDoubleVector3& p_FO,
                       ChainWalk& walk) {
   const Vector3d step = step_to(joint, is_first, p_FO) + joint.p_QL;

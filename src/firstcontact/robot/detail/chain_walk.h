@@ -21,29 +21,31 @@
 
 namespace firstcontact::detail {
 
-/// A few rounded operations on vectors of three.
+/// [-]  Rounding of a few operations on vectors of three.
 inline constexpr double kChainRounding = 0x1p-49;
 
-/// The error of one joint's rotation, its product with those before it, and the vectors that hang
-/// on it.
+/// [-]  Error of one joint's rotation, its product with those before it, and the vectors fixed in
+/// it.
 ///
 /// It is 24 2^-53 for each of three columns, 9 2^-53 for the product.
 inline constexpr double kRotationStep = 0x1p-47;
 
-/// At least the length, without a square root: errors need not be tight.
+/// An upper bound of the length without a square root; errors need not be tight.
 inline double rough_size(const Eigen::Vector3d& v) { return v.lpNorm<1>(); }
 
-/// Newton-Euler's recursion from F outwards: place and derivatives of the last link reached.
+/// The recursion of Newton and Euler from F outwards: place and derivatives of the last link
+/// reached.
 ///
-/// With them go the sums of the sizes of all that enters them, from which the errors follow.
+/// The walk also sums up the sizes of all terms, from which the errors follow.
 ///
-/// Derivation of the errors: vectors r of the chain are within e |r|, e the error of the last
-/// rotation, the greatest; rates of joints within d, summed over the joints; axes like vectors.
-/// Each term of v is a product of one rate and one vector, within (2 e + d / rate) of its size; of
-/// al two rates and an axis; of a two rates or their derivative, two axes and a vector. Roundings
-/// are some dozen of each term, and two for each sum that a joint adds to.
+/// Derivation of the errors: e is the error of the last rotation, the greatest one. d is the error
+/// of the rates of joints, summed up over the joints. Vectors r of the chain are within e |r|, and
+/// axes likewise. Each term of v is a product of one rate and one vector, within (2 e + d / rate)
+/// of its size. A term of al has two rates and an axis. A term of a has two rates or their
+/// derivative, two axes and a vector. Roundings are some dozen of each term, and two for each sum
+/// that a joint adds to.
 struct ChainWalk {
-  /// Products of two errors.
+  /// [-]  Factor that covers products of two errors.
   static constexpr double kSecondOrder = 1.0 + 0x1p-30;
 
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -53,21 +55,22 @@ struct ChainWalk {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   Eigen::Vector3d al = Eigen::Vector3d::Zero();
 
-  std::size_t joints = 0;  ///< Passed so far.
+  std::size_t joints = 0;  ///< Number of joints passed so far.
   double rotation_error = 0.0;
-  double position_error = 0.0;  ///< By rotations and pivots.
-  double length = 0.0;          ///< [m]  Of the chain.
-  double speed = 0.0;           ///< At least |v|, and what cancelled in it; the same of the others.
+  double position_error = 0.0;  ///< [m]  Error by rotations and pivots.
+  double length = 0.0;          ///< [m]  Length of the chain.
+  double speed = 0.0;  ///< At least |v|, and the terms that cancelled in it; likewise the other
+                       ///< sums.
   double acceleration = 0.0;
   double spin = 0.0;
   double spin_rate = 0.0;
   double sliding = 0.0;
-  double spin_error = 0.0;  ///< By the rates of joints; the same of the others.
+  double spin_error = 0.0;  ///< Error by the rates of joints; likewise the others.
   double spin_rate_error = 0.0;
   double sliding_error = 0.0;
   double sliding_rate_error = 0.0;
 
-  /// From the origin of the link reached to a point r that is fixed in it.
+  /// Moves from the origin of the last link to a point r that is fixed in it.
   void move(const Eigen::Vector3d& r) {
     const Eigen::Vector3d velocity = w.cross(r);
     a += al.cross(r) + w.cross(velocity);
@@ -80,7 +83,7 @@ struct ChainWalk {
     position_error += rotation_error * far;
   }
 
-  /// The point slides in the link.
+  /// Adds the slide of the point in the link.
   void slide(const JointState& joint) {
     const Eigen::Vector3d velocity = R * joint.pivot_velocity;
     const Eigen::Vector3d rate = R * joint.pivot_acceleration;
@@ -152,23 +155,23 @@ using Joints = std::span<const std::shared_ptr<const JointPath>>;
 
 /// A memory of the last walks.
 ///
-/// The links of a robot share the joints before them, and pairs of them the times of queries.
+/// The links of a robot share the joints before them. Pairs of links share the times of queries.
 class ChainMemory {
  public:
   struct Node {
-    std::uint64_t joint = 0;  ///< Its path's id.
+    std::uint64_t joint = 0;  ///< Id of the joint's path.
     std::size_t parent = 0;
     std::size_t first_child = 0;  ///< 0 for none: the root is no child.
     std::size_t next_sibling = 0;
     ChainWalk walk;
     PassedJoint passed;
-    // The bounds asked for last.
+    // The window of the last bounds.
     mutable double t_from = std::numeric_limits<double>::quiet_NaN();
     mutable double t_to = std::numeric_limits<double>::quiet_NaN();
     mutable JointBounds bounds = {};
   };
 
-  /// A walk that ends at a node; those before it by their parents, the root being 0.
+  /// A walk that ends at a node; the nodes before it are its parents, with the root 0.
   struct Walked {
     const std::vector<Node>& nodes;
     std::size_t last = 0;
@@ -176,10 +179,10 @@ class ChainMemory {
     [[nodiscard]] const ChainWalk& end() const { return nodes[last].walk; }
   };
 
-  /// Valid until the next call.
+  /// Walks along joints. The result is valid until the next call.
   [[nodiscard]] Walked walk(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
-  /// Drops what is known of all joints, which will not be asked about again.
+  /// Drops the knowledge of all joints, where none of them is needed any more.
   void forget() {
     for (Instant& instant : instants_) {
       instant.t = std::numeric_limits<double>::quiet_NaN();
@@ -196,10 +199,10 @@ class ChainMemory {
   struct Instant {
     double t = std::numeric_limits<double>::quiet_NaN();
     DoubleDoubleVector3 p_FO;
-    std::vector<Node> nodes;  // Those in use first; the others' memory is kept.
+    std::vector<Node> nodes;  // Those in use come first; the memory of the others is kept.
     std::size_t used = 0;
 
-    /// A node without state; those before it may move.
+    /// Adds a node without state; nodes before it may move in memory.
     std::size_t add_child(std::size_t parent);
   };
   Instant& instant(double t, const DoubleDoubleVector3& p_FO);

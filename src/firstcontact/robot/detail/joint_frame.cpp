@@ -5,7 +5,8 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A planar joint's x and y direction: those of J, turned by the shortest rotation from z to n.
+/// The x and y directions of a planar joint: those of J, turned by the shortest rotation from z to
+/// n.
 std::array<DoubleDoubleVector3, 2> planar_directions(const DoubleDoubleVector3& n) {
   const DoubleDoubleVector3 x(1.0, 0.0, 0.0);
   const DoubleDoubleVector3 y(0.0, 1.0, 0.0);

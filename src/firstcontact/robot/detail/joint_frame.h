@@ -14,7 +14,8 @@ namespace firstcontact::detail {
 /// A joint that moves, in the frame R of the link that moves before it.
 struct JointFrame {
   PreciseTransform X_RJ;
-  std::optional<JointPath> path;  ///< Of joints with coordinates: at zero, to be moved().
+  std::optional<JointPath> path;  ///< The path at zero, to be moved(); only for joints with
+                                  ///< coordinates.
 };
 
 [[nodiscard]] JointFrame joint_frame(const Joint& joint, const PreciseTransform& X_RJ);

@@ -12,12 +12,13 @@ namespace firstcontact::detail {
 
 /// A coordinate of a joint as a function of the one that it follows: multiplier q + offset.
 struct MimickedJoint {
-  std::size_t joint = 0;    ///< That mimics none.
-  double multiplier = 1.0;  ///< [-]  By the units of both.
+  std::size_t joint = 0;    ///< Index of the joint, which mimics none.
+  double multiplier = 1.0;  ///< [-]  In the units of both.
   double offset = 0.0;      ///< [rad or m]
 };
 
-/// The joint that one follows in the end, through others that mimic it; itself if it mimics none.
+/// The joint that a joint follows in the end, through others that mimic it; itself if it mimics
+/// none.
 inline MimickedJoint mimicked_joint(const RobotModel& model, std::size_t joint) {
   MimickedJoint found{.joint = joint};
   while (const std::optional<Mimic>& mimic = model.joints()[found.joint].mimic) {

@@ -11,7 +11,7 @@ namespace firstcontact::detail {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
-/// About the fixed axes x, then y, then z.
+/// The rotation about the fixed axes x, then y, then z.
 inline Eigen::Quaterniond turned_xyz(const Eigen::Vector3d& angles) {
   return Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *

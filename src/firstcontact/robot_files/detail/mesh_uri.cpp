@@ -18,8 +18,9 @@ constexpr std::string_view kFile = "file:";
 constexpr std::string_view kNoHost = "//";
 constexpr std::string_view kLocalHost = "//localhost/";
 
-/// The path of a "file:" URI (RFC 8089), with or without an empty host. One that is relative, which
-/// the standard does not know, is one all the same.
+/// The path of a "file:" URI (RFC 8089), with or without an empty host.
+///
+/// The standard has no relative paths; one is accepted all the same.
 std::string_view path_of_file_uri(std::string_view rest) {
   if (rest.starts_with(kLocalHost)) {
     return rest.substr(kLocalHost.size() - 1);
@@ -27,7 +28,7 @@ std::string_view path_of_file_uri(std::string_view rest) {
   return rest.starts_with(kNoHost) ? rest.substr(kNoHost.size()) : rest;
 }
 
-/// The path as it is written where there is such a file, else with %20 and the like decoded.
+/// The path as it is written, where there is such a file; else with %20 and the like decoded.
 std::string existing(std::string_view path, const std::filesystem::path& urdf) {
   std::error_code ignored;
   const std::optional<std::string> decoded = decode_percent(path);
@@ -35,7 +36,8 @@ std::string existing(std::string_view path, const std::filesystem::path& urdf) {
                                                                                  : *decoded;
 }
 
-/// The folder that holds a file. Of a path with ".." it is the real one, whatever links lead to it.
+/// The folder that holds a file. For a path with ".." it is the real one, whatever links lead to
+/// it.
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::filesystem::path folder = std::filesystem::absolute(file, ignored).parent_path();
@@ -43,8 +45,8 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return goes_up ? std::filesystem::weakly_canonical(folder, ignored) : folder;
 }
 
-/// The roots, then the folders of packages of this name that hold the file, then its folder and all
-/// above.
+/// The folders to search: the roots, then packages of this name that hold the file, then its folder
+/// and all above.
 std::vector<std::filesystem::path> search_path(const std::string& package,
                                                const std::filesystem::path& urdf,
                                                std::span<const std::filesystem::path> roots) {
@@ -78,7 +80,7 @@ std::filesystem::path resolve_mesh(const std::string& uri, const std::filesystem
                                 "'; run xacro first");
   }
   if (text.starts_with(kFile)) {
-    // What is absolute replaces the folder.
+    // An absolute path replaces the folder.
     return urdf.parent_path() / existing(path_of_file_uri(text.substr(kFile.size())), urdf);
   }
   if (!text.starts_with(kPackage)) {

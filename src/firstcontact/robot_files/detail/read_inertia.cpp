@@ -12,7 +12,7 @@ Eigen::Matrix3d moments(const XmlElement& element, const XmlReader& xml) {
   const auto moment = [&](const char* name) {
     return xml.optional_number(element, name).value_or(0.0);
   };
-  // Before Eigen's list begins, which must not be left by an exception.
+  // Read before Eigen's list begins, as no exception may leave that.
   const double xx = moment("ixx");
   const double xy = moment("ixy");
   const double xz = moment("ixz");
@@ -44,7 +44,7 @@ LinkInertia read(const XmlElement& inertial, const UrdfContext& context) {
 
 LinkInertia read_inertia(const XmlElement& link, const XmlElement& inertial,
                          const UrdfContext& context) {
-  // Apart from the log of the file: here nothing is an error before forces move the link.
+  // A log apart from that of the file: here nothing is an error before forces move the link.
   ReadingLog log(context.log.path(), "URDF");
   const XmlNameCheck names(context.xml, log, urdf_names().telling);
   const UrdfContext apart{context.xml, names, log, context.source, context.options};

@@ -28,7 +28,7 @@ constexpr std::array<TypeWord, 9> kTypes = {{{"fixed", JointType::fixed},
                                              {"ball", JointType::ball},
                                              {"spherical", JointType::ball}}};
 
-/// One joint and what it says of itself.
+/// Reads one joint.
 class JointReader {
  public:
   JointReader(const XmlElement& element, const UrdfContext& context)
@@ -84,7 +84,7 @@ class JointReader {
     if (axis->Attribute("rpy") != nullptr) {
       Pose turn;
       if (!xml_.vector3(*axis, "rpy").isZero(0.0)) {
-        turn.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);  // Any that turns.
+        turn.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);  // Any rotation.
       }
       context_.pass_over_pose(*axis, "'rpy' of an <axis>", turn);
     }
@@ -128,7 +128,8 @@ class JointReader {
     if (is_bounded) {  // Both are 0 where they are left out.
       limits.lower = element->Attribute("lower") == nullptr ? 0.0 : limits.lower;
       limits.upper = element->Attribute("upper") == nullptr ? 0.0 : limits.upper;
-    } else if (joint_.type == JointType::continuous) {  // They have no meaning there.
+    } else if (joint_.type == JointType::continuous) {  // They have no meaning for continuous
+                                                        // joints.
       limits.lower.reset();
       limits.upper.reset();
     }
@@ -142,8 +143,9 @@ class JointReader {
     }
   }
 
-  /// None where it is not there, or so great that there is none: writers put infinities and the
-  /// greatest double there.
+  /// A limit; none where it is missing, or so great that it does not limit.
+  ///
+  /// Writers put infinities and the greatest double there.
   std::optional<double> limit(const XmlElement& element, const char* attribute) const {
     constexpr double kEndless = 1e60;
     if (element.Attribute(attribute) == nullptr) {
@@ -162,7 +164,7 @@ class JointReader {
     return xml_.number(element, attribute);
   }
 
-  /// None, with a warning, where it is negative: no joint could obey.
+  /// A limit; none, with a warning, where it is negative, as no joint could obey it.
   std::optional<double> not_negative(const XmlElement& limit, const char* attribute) const {
     const std::optional<double> number = this->limit(limit, attribute);
     if (!number || *number >= 0.0) {

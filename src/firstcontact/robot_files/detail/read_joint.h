@@ -10,8 +10,9 @@
 
 namespace firstcontact::detail {
 
-/// A joint. What is wrong with it goes into the log; none where it does not say what it connects,
-/// or how it moves.
+/// Reads a joint; its errors go into the log.
+///
+/// It returns none where the joint does not state what it connects, or how it moves.
 [[nodiscard]] std::optional<Joint> read_joint(const XmlElement& element,
                                               const UrdfContext& context);
 

@@ -14,7 +14,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Whether the geometry of a link's <visual> is what can touch.
+/// Whether the <visual> geometry of a link can touch.
 bool visual_touches(RobotSurface surface, bool has_collision) {
   return surface == RobotSurface::visual ||
          (surface == RobotSurface::collision_or_visual && !has_collision);
@@ -73,8 +73,8 @@ std::vector<LinkGeometry> LinkReader::geometries(const XmlElement& link, bool is
   return result;
 }
 
-/// None where it says only how the link looks, but not in a way that is read; or where its names
-/// are wrong, which the log tells.
+/// Reads a geometry; none for looks in a form that is not read, or for wrong names, which the log
+/// reports.
 std::optional<LinkGeometry> LinkReader::geometry(const XmlElement& piece, bool is_visual,
                                                  bool is_wanted) const {
   LinkGeometry result;
@@ -115,7 +115,7 @@ std::optional<LinkGeometry> LinkReader::geometry(const XmlElement& piece, bool i
   return result;
 }
 
-/// The one child that is geometry.
+/// The one child that holds geometry.
 const XmlElement* LinkReader::source_element(const XmlElement& holder) const {
   const XmlElement* found = nullptr;
   for (const XmlElement* child = holder.FirstChildElement(); child != nullptr;
@@ -162,7 +162,7 @@ GeometrySource LinkReader::primitive(const XmlElement& element) const {
                           : GeometrySource(CylinderGeometry{radius, length});
 }
 
-/// A radius or length.
+/// Reads a radius or a length.
 double LinkReader::size(const XmlElement& element, const char* attribute) const {
   const double size = context_.xml.number(element, attribute);
   if (!(size >= 0.0)) {
@@ -171,7 +171,7 @@ double LinkReader::size(const XmlElement& element, const char* attribute) const 
   return size;
 }
 
-/// What is flat, a segment or a point can touch, but may be meant for nothing.
+/// Warns of a flat shape, a segment or a point: it can touch, but may be a mistake.
 void LinkReader::warn_of_size_zero(const XmlElement& element, const GeometrySource& source) const {
   const auto* box = std::get_if<BoxGeometry>(&source);
   const auto* sphere = std::get_if<SphereGeometry>(&source);
@@ -230,7 +230,7 @@ void LinkReader::make_shapes(std::vector<Link>& links) {
   }
 }
 
-/// Errors in a mesh file keep their own place; all others get that of the element.
+/// Makes a shape. Errors in a mesh file keep their own place; all others get that of the element.
 Shape LinkReader::shape(const XmlElement& element, const GeometrySource& source) {
   const auto* mesh = std::get_if<MeshGeometry>(&source);
   try {
@@ -247,7 +247,7 @@ Shape LinkReader::shape(const XmlElement& element, const GeometrySource& source)
   }
 }
 
-/// Notes the report of a file that is read for the first time, at whatever scale.
+/// Reads a mesh, and notes the report of a file that is read for the first time, at any scale.
 Shape LinkReader::read_mesh_shape(const GeometrySource& source) {
   ShapeReading reading = read_shape(source, context_.options.reading);
   const auto is_same = [&](const FileReport& file) { return file.path == reading.report->path; };

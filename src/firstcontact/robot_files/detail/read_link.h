@@ -22,10 +22,11 @@ class LinkReader {
   /// @param context  outlives the reader
   explicit LinkReader(const UrdfContext& context) : context_(context) {}
 
-  /// A link without shapes. What is wrong with it goes into the log. What of it can touch, by the
-  /// options, is its collision geometry.
+  /// Reads a link without shapes; its errors go into the log.
   ///
-  /// @param index  of the link in the robot
+  /// Its collision geometry is the geometry that can touch by the options.
+  ///
+  /// @param index  index of the link in the robot
   [[nodiscard]] Link read(const XmlElement& element, std::size_t index);
 
   /// Makes the shapes that are asked for. Errors go into the log.

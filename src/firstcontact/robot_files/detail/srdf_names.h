@@ -1,5 +1,5 @@
 /// @file
-/// The names of SRDF: which are read, and which belong to other tools.
+/// The names of SRDF: those that are read, and those that belong to other tools.
 
 #pragma once
 
@@ -16,7 +16,7 @@ struct SrdfNames {
   XmlContents member;  ///< Links, joints and groups of a group.
   XmlContents chain;
   XmlContents state;
-  XmlContents value;  ///< Of a joint in a state.
+  XmlContents value;  ///< Value of a joint in a state.
   XmlContents effector;
   TellingNames telling;
 };

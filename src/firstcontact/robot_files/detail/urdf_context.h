@@ -23,7 +23,7 @@ struct UrdfContext {
   const std::filesystem::path& source;
   const UrdfOptions& options;
 
-  /// Reads a part; what is wrong with it goes into the log, so that the parts after it are read.
+  /// Calls `read`, and logs its error, so that the elements after it are read.
   void attempt(const std::function<void()>& read) const;
 
   /// The <origin> of an element; the identity where there is none.
@@ -31,9 +31,9 @@ struct UrdfContext {
   /// @throws ParseError
   [[nodiscard]] Pose origin(const XmlElement& element) const;
 
-  /// Passes over an element or attribute that places nothing where urdfdom reads it.
+  /// Passes over a pose where urdfdom reads none.
   ///
-  /// Warns where the pose is the identity, and refuses it where the author may have meant
+  /// It warns where the pose is the identity, and refuses it where the author may have meant
   /// something.
   void pass_over_pose(const XmlElement& element, const char* what, const Pose& pose) const;
 };

@@ -78,7 +78,7 @@ XmlNames strict(std::vector<std::string_view> read, std::vector<HarmlessName> ha
   return {.read = std::move(read), .harmless = std::move(harmless), .is_strict = true};
 }
 
-/// Attributes of what places geometry.
+/// The attributes of an element that places geometry.
 XmlNames strict_attributes(std::vector<std::string_view> read) {
   return strict(std::move(read), {{"name", kLabel},
                                   {"id", kLabel},

@@ -1,5 +1,5 @@
 /// @file
-/// The names of URDF: which are read, which say nothing of contacts, which tell of geometry.
+/// The names of URDF: those that are read, those without geometry, and those that report geometry.
 
 #pragma once
 
@@ -31,7 +31,7 @@ struct UrdfNames {
   TellingNames telling;
 };
 
-/// URDF 1.2 with what Gazebo, Drake, MuJoCo, Bullet and ROS write into it.
+/// The names of URDF 1.2, with those of Gazebo, Drake, MuJoCo, Bullet and ROS.
 [[nodiscard]] const UrdfNames& urdf_names();
 
 }  // namespace firstcontact::detail
