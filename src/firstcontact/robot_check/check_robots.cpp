@@ -29,9 +29,9 @@ using detail::GeometryAnswer;
 using detail::GeometryCandidate;
 using detail::GeometrySearch;
 
-/// Pieces of time looked at together, and searches done side by side with the same horizon: few at
-/// first, as a contact spares the others. Fixed, so that answers do not depend on the number of
-/// threads.
+/// Number of pieces that are looked at together, and of searches with the same horizon in the first
+/// round. The first round is small, as a contact makes other searches needless. Both are fixed, so
+/// that answers do not depend on the number of threads.
 constexpr std::size_t kBlock = 32;
 constexpr std::size_t kFirstRound = 1;
 constexpr std::size_t kLargestRound = 32;
@@ -55,7 +55,7 @@ void validate(const RobotCheckOptions& options) {
           "contact_band must be finite and >= 0");
 }
 
-/// All that checks of a scene share.
+/// The data that all checks of a scene share.
 struct Prepared {
   explicit Prepared(const RobotScene& scene) : timeline(scene), candidates(timeline) {}
 
@@ -106,7 +106,7 @@ class RobotCheck {
     }
   }
 
-  /// Nothing is known of a pair whose start the budget did not let see.
+  /// Makes a pair undecided whose start gap the budget left open.
   void give_up_without_hold(std::size_t pair) {
     for (const detail::HeldStretch& stretch : holds_->stretches(pair)) {
       if (stretch.hold.stopped != UndecidedReason::none) {
@@ -144,8 +144,9 @@ class RobotCheck {
     return answer;
   }
 
-  /// That of a tested pair, by index: free until something else is found. Most pairs never need
-  /// one.
+  /// The answer of a tested pair, by index; free until a search finds something else.
+  ///
+  /// Most pairs never need one.
   PairAnswer& answer_of(std::size_t pair) {
     std::size_t& place = place_of_[pair];
     if (place == kNone) {
@@ -157,7 +158,7 @@ class RobotCheck {
     return pairs_[place];
   }
 
-  /// The most contacts of a pair of members that are listed.
+  /// The greatest number of contacts of a pair of members that are listed.
   [[nodiscard]] std::size_t most_contacts() const {
     return options_.contacts.kind == ContactState::Kind::nearest ? options_.contacts.most
                                                                  : ContactState::all.most;
@@ -171,7 +172,7 @@ class RobotCheck {
     }
   }
 
-  /// Nothing after it matters.
+  /// The time after which nothing matters.
   [[nodiscard]] double horizon() const { return asks_each_pair() || only_ ? 1.0 : first_; }
 
   void report(double done) const {
@@ -236,14 +237,15 @@ class RobotCheck {
     return first_contact_of(search, candidate, end, is_tested_anew(candidate));
   }
 
-  /// Bodies that come to be tested may be inside of each other by then.
+  /// Whether a pair comes to be tested: its bodies may be inside of each other by then.
   [[nodiscard]] bool is_tested_anew(const GeometryCandidate& candidate) const {
     return candidate.piece > 0 &&
            candidate.window.begin == timeline_.piece(candidate.piece).begin &&
            !timeline_.is_tested(timeline_.pairs()[candidate.pair], candidate.piece - 1);
   }
 
-  /// A contact holds for the pair even beside an undecided search: nothing touches before it.
+  /// Takes the answer of a candidate. A contact holds for the pair even beside an undecided search:
+  /// nothing touches before it.
   void take(const GeometryCandidate& candidate, GeometryAnswer&& answer) {
     PairAnswer& pair = answer_of(candidate.pair);
     const FirstContactResult& found = answer.first;
@@ -273,7 +275,7 @@ class RobotCheck {
     first_ = std::min(first_, pair.t);
   }
 
-  /// All that is free so far is known to be so before t only.
+  /// Makes all pairs that are free so far undecided from t on.
   void give_up(double t, UndecidedReason reason) {
     if (only_) {
       give_up(answer_of(*only_), t, reason);
@@ -300,7 +302,7 @@ class RobotCheck {
     const auto spent = [&] { return detail::spent(options_.budget); };
     for_each(balls.size(), [&](std::size_t piece) {
       if (spent() != UndecidedReason::none) {
-        return;  // And so it stays: no pair asks for the balls any more.
+        return;  // It stays so: no pair needs the balls any more.
       }
       const TimeWindow window = timeline_.piece(piece);
       for (std::size_t geometry = 0; geometry < timeline_.geometries().size(); ++geometry) {
@@ -312,7 +314,7 @@ class RobotCheck {
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
       if (!timeline_.is_tested(timeline_.pairs()[k])) {
-        return;  // The two are nowhere of interest.
+        return;  // The two are of interest at no time.
       }
       const UndecidedReason reason = spent();
       answer_of(k).closest =
@@ -337,7 +339,7 @@ class RobotCheck {
     least_of_all_ = found->least.lower_bound;
   }
 
-  /// Answers a pair that was searched only until another one's contact.
+  /// Answers a pair over the whole step; it was searched only until another pair's contact.
   void answer_whole_step(std::size_t pair) {
     PairAnswer& answer = answer_of(pair);
     const WorkCount work = answer.work;
@@ -361,7 +363,8 @@ class RobotCheck {
       } else if (holds_) {
         result.clearance = std::min(result.clearance, holds_->least(pair));
       } else {
-        result.clearance = timeline_.least_margin();  // Of those without an answer, all free.
+        result.clearance = timeline_.least_margin();  // Clearance of the pairs without an answer,
+                                                      // which are all free.
       }
     }
     std::sort(pairs_.begin(), pairs_.end(),
@@ -406,8 +409,8 @@ class RobotCheck {
     }
   }
 
-  /// The features within the band of those geometries that do not decide; of the others they are
-  /// listed.
+  /// Lists the features within the band of geometries that do not decide; the others are listed
+  /// already.
   void list_band(std::size_t index) {
     const std::size_t place = place_of_[index];
     PairAnswer& pair = pairs_[place];
@@ -436,15 +439,16 @@ class RobotCheck {
   const detail::CandidateSearch& candidates_;
   detail::LinkWorkspaces& workspaces_;
   const RobotCheckOptions& options_;
-  std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
+  std::vector<std::size_t> place_of_;  // Place in pairs_ of each tested pair; or kNone.
   std::vector<PairAnswer> pairs_;
-  std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
-  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_geometries_;  // That these are of.
-  std::optional<detail::PairHolds> holds_;                                    // For keep_half.
-  double first_ = 1.0;                         // Before it all pairs are proven free.
+  std::vector<detail::PairContacts> contacts_;  // Contacts of each of them, at its t.
+  // The geometries of these contacts.
+  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_geometries_;
+  std::optional<detail::PairHolds> holds_;     // For keep_half.
+  double first_ = 1.0;                         // Before this time all pairs are proven free.
   std::optional<detail::KnownNear> earliest_;  // The search that found it.
-  double least_of_all_ = 0.0;                  // [m]  Of all pairs, where that was asked.
-  std::optional<std::size_t> only_;            // The only pair that is asked about now.
+  double least_of_all_ = 0.0;        // [m]  Least distance of all pairs, where that was asked for.
+  std::optional<std::size_t> only_;  // The only pair that is answered now.
 };
 
 SceneResult check(Prepared& scene, const RobotCheckOptions& options) {

@@ -53,7 +53,7 @@ void require_body_where_it_deforms(const MovingLink& link) {
   }
 }
 
-/// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
+/// Calls ask(ShapePair) with the two in order; returns whether they were swapped.
 template <class Ask>
 bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                   LinkScratch& scratch, const Ask& ask) {

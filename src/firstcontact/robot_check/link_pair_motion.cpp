@@ -17,11 +17,11 @@ using Eigen::Vector3d;
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// Sums of a few products of numbers and vectors, each rounded.
+/// [-]  Rounding of sums of a few products of numbers and vectors.
 constexpr double kRounding = 0x1p-47;
 
-/// [-]  A pole is not taken farther than this many times the sizes that are there anyway: the
-/// rounding of a velocity grows with its distance.
+/// [-]  Greatest distance of a pole, by the other sizes of the pair. The rounding of a velocity
+/// grows with it.
 constexpr double kFarPole = 4.0;
 
 const LinkPath& piece_at(const LinkMotion& motion, double t) {
@@ -30,14 +30,17 @@ const LinkPath& piece_at(const LinkMotion& motion, double t) {
   return *std::upper_bound(pieces.begin(), pieces.end() - 1, t, ends_later);
 }
 
-/// The time in which second-order terms stand for the path: V T bounds the way that a point goes,
-/// J T^3 / 6 what they miss of it.
+/// The time for which second-order terms represent the path.
+///
+/// V T bounds the displacement of a point, J T^3 / 6 the error of these terms.
 double window_length(double speed, double jerk) {
   return jerk > 0.0 ? std::sqrt(0.5 * speed / jerk) : std::numeric_limits<double>::infinity();
 }
 
-/// The end of the smallest share of the piece, of those that halving makes, that begins before t
-/// and ends about a length after it. Windows end: they are a thousandth of the piece at least.
+/// The end of a window: the smallest fraction of the piece by halving that begins before t and ends
+/// about a length after it.
+///
+/// A window is at least a thousandth of the piece, so that the windows come to an end.
 double end_of_window(const TimeWindow& piece, double t, double length) {
   constexpr double kLeast = 0x1p-10;
   constexpr double kEnough = 0.75;
@@ -51,7 +54,7 @@ double end_of_window(const TimeWindow& piece, double t, double length) {
   return end > t && next < 1.0 ? std::min(end, piece.end) : piece.end;
 }
 
-/// The centre of a ball: where it is from the link's origin, and how it moves.
+/// The motion of the centre of a ball: its offset from the link's origin, and its derivatives.
 struct CentreMotion {
   Vector3d offset;
   Vector3d velocity;
@@ -68,7 +71,8 @@ CentreMotion centre_of(const LinkState& link, const LinkBall& ball) {
   return centre;
 }
 
-/// From the pole of acceleration to the centre of a ball; zero where the link does not turn.
+/// The vector from the pole of acceleration to the centre of a ball; zero where the link does not
+/// turn.
 Vector3d lever_of(const LinkState& link, const CentreMotion& centre, double radius) {
   const double rate = link.spin.norm();
   if (rate == 0.0) {
@@ -83,7 +87,7 @@ Vector3d lever_of(const LinkState& link, const CentreMotion& centre, double radi
 
 }  // namespace
 
-/// One body's half of a RelativeState, positions from the pair's origin.
+/// The part of a RelativeState of one body, with positions from the pair's origin.
 struct LinkPairMotion::BodyState {
   Eigen::Matrix3d R;
   Vector3d centre;
@@ -93,7 +97,7 @@ struct LinkPairMotion::BodyState {
   double rate = 0.0;
   double drift = 0.0;
   double bend = 0.0;
-  double bend_per_metre = 0.0;  ///< [per step^2]  For each metre from the pivot.
+  double bend_per_metre = 0.0;  ///< [per step^2]  Growth for each metre from the pivot.
   double position_error = 0.0;
   double rotation_error = 0.0;
 };
@@ -163,7 +167,7 @@ LinkPairMotion::BodyState LinkPairMotion::free_state(const Body& body, const Con
   state.pivot_velocity = path.pivot_velocity().value();
   state.axis = path.axis();
   state.rate = path.rate();
-  // The pivot is known as well as its distance from the centre.
+  // The error of the pivot is that of its distance from the centre.
   state.drift = kRounding * state.rate * (at.p_QC_W.norm() + offset.norm());
   state.rotation_error = path.rotation_error();
   state.position_error = path.position_error() + path.rotation_error() * body.ball.p_LC.norm() +
@@ -209,9 +213,11 @@ LinkPairMotion::BodyState LinkPairMotion::state_of(const Body& body, double t) c
   return state;
 }
 
-/// @param bent   [m per step^2]  the acceleration of the ball's centre without that of its model
-/// @param lever  [m]             from the pole to the centre
-/// @param error  [m per step^2]  of the acceleration of any point of the ball
+/// Bounds the bend of a body.
+///
+/// @param bent   [m per step^2]  acceleration of the ball's centre without that of its model
+/// @param lever  [m]             vector from the pole to the centre
+/// @param error  [m per step^2]  error of the acceleration of any point of the ball
 void LinkPairMotion::set_bend(const Body& body, const LinkState& link, const Vector3d& bent,
                               const Vector3d& lever, double error, double t,
                               BodyState& state) const {

@@ -16,7 +16,7 @@
 namespace firstcontact {
 namespace {
 
-/// Two geometries, and how far apart balls around them are at least.
+/// Two geometries, and a lower bound of their distance by balls.
 struct NearGeometries {
   double bound = 0.0;      ///< [m]
   double threshold = 0.0;  ///< [m]
@@ -30,7 +30,7 @@ class GapSampler {
   [[nodiscard]] RobotGap at(double t) {
     RobotGap gap;
     for (const NearGeometries& near : by_distance(t)) {
-      // What is farther than this says nothing.
+      // Pairs that are farther apart than this change nothing.
       const double reach = gap.contact ? gap.distance : std::max(gap.distance, near.threshold);
       const GeometryPair pair(timeline_, near.geometries, t);
       if (near.bound > reach || is_farther(pair, t, reach)) {
@@ -72,7 +72,7 @@ class GapSampler {
     LinkMotion X_FB_;
   };
 
-  /// Whether it can be proven so without the distance, which costs much more to know.
+  /// Whether that can be proven without the distance, which costs more.
   [[nodiscard]] bool is_farther(const GeometryPair& pair, double t, double distance) {
     if (!std::isfinite(distance)) {
       return false;
@@ -86,7 +86,7 @@ class GapSampler {
     return result.verdict == Verdict::free;
   }
 
-  /// The earlier one at a break.
+  /// The piece that contains t, the earlier one at a break.
   [[nodiscard]] std::size_t piece_at(double t) const {
     std::size_t first = 0;
     std::size_t last = timeline_.piece_count() - 1;
@@ -137,7 +137,7 @@ class GapSampler {
 
   detail::RobotTimeline timeline_;
   detail::LinkWorkspace workspace_;
-  std::array<std::size_t, 2> nearest_ = {};  // Geometries, at the time before.
+  std::array<std::size_t, 2> nearest_ = {};  // Geometries that were nearest at the time before.
 };
 
 }  // namespace

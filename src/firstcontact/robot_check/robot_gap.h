@@ -1,5 +1,5 @@
 /// @file
-/// How far apart the members of a robot scene are at chosen times: what sampling sees.
+/// The distance of the members of a robot scene at chosen times, as sampling finds it.
 
 #pragma once
 
@@ -14,15 +14,16 @@ namespace firstcontact {
 
 class RobotScene;
 
-/// The least distance of all pairs that are tested at one time, without padding, margins and
-/// tracking errors.
+/// The least distance of all pairs that are tested at one time.
+///
+/// It is without padding, margins and tracking errors.
 struct RobotGap {
   double distance = std::numeric_limits<double>::infinity();     ///< [m]  Infinite without a pair.
   double lower_bound = std::numeric_limits<double>::infinity();  ///< [m]  Proven at that time.
-  bool contact = false;  ///< A pair is no farther apart than its threshold.
+  bool contact = false;  ///< Whether a pair is no farther apart than its threshold.
 };
 
-/// The gap at each of the times. Proves nothing about the times between them.
+/// Samples the gap at each of the times. Proves nothing about the times between them.
 ///
 /// @param times  [-]  each in [0, 1]
 /// @param stop   ends the sampling early, with fewer gaps

@@ -47,7 +47,7 @@ bool slides(JointType type) {
   return type == JointType::prismatic || type == JointType::planar || type == JointType::floating;
 }
 
-/// X_WL(t) seen from a point near the link, where doubles are fine.
+/// The pose X_WL(t) from a point near the link, where doubles are accurate.
 LinkPose link_pose(const RobotMotion& motion, std::size_t link, double t,
                    const Eigen::Vector3d& p_WO) {
   return motion.path(link, t).pose(t, DoubleDoubleVector3(p_WO));
@@ -179,7 +179,7 @@ void RobotScene::attach(Attachment attachment) {
     if (attachment.t_from > 0.0) {
       refuse("'" + body + "' has a pose in its link: it is held from the start on, t_from = 0");
     }
-    (void)Motion::fixed(*attachment.X_LB);  // Refuses what is no pose.
+    (void)Motion::fixed(*attachment.X_LB);  // Refuses a pose that is none.
   }
   for (const Attachment& other : attachments_) {
     if (other.body == attachment.body && attachment.t_from < other.t_to &&

@@ -13,7 +13,7 @@
 namespace firstcontact {
 namespace {
 
-/// A collision geometry where it rests, in the frame of the root link.
+/// A collision geometry at its place at rest, in the frame of the root link.
 struct Placed {
   Shape shape;
   Motion X_RG;

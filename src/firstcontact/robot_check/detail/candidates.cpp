@@ -14,22 +14,22 @@ namespace {
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// [-]  A bound of tracking errors over a window may exceed that at its middle by this share of it.
+/// [-]  Share by which a bound of tracking errors over a window may exceed that at its middle.
 constexpr double kLooseError = 0.05;
 constexpr int kErrorDepth = 8;
 
-/// [-]  A gap of this share of the distance at a window's middle is near enough: better ones cost
-/// more than the windows that they spare.
+/// [-]  Part of the distance at a window's middle from which a gap is accepted: greater gaps cost
+/// more than the windows that they save.
 constexpr double kNear = 0.5;
 
-/// Two geometries that are still in question.
+/// Two geometries that may still touch.
 struct Question {
   std::size_t pair = 0;
   std::array<std::size_t, 2> geometries = {};
-  std::optional<std::array<std::size_t, 2>> placed = {};  // In a frame that carries both.
-  Eigen::Vector3d n = Eigen::Vector3d::Zero();            // Between the two, found last.
+  std::optional<std::array<std::size_t, 2>> placed = {};  // Places in a frame that carries both.
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();            // Direction between the two, found last.
   double middle = 0.0;                                    // [m]  Gap at the middle of the window.
-  bool apart = false;                                     // Beyond the threshold there.
+  bool apart = false;  // Whether they are beyond the threshold there.
 };
 
 class Search {
@@ -66,22 +66,22 @@ class Search {
   }
 
  private:
-  /// Where a geometry is in the piece, tracking errors included.
+  /// The box of a geometry over the piece, tracking errors included.
   struct Box {
     Eigen::Vector3d low;
     Eigen::Vector3d high;
   };
 
-  /// Questions of a window.
+  /// The questions of a window.
   struct Part {
     GridWindow window;
     std::vector<Question> questions;
   };
 
-  /// Questions for which shorter windows help.
+  /// The questions for which shorter windows help.
   struct Open {
-    std::vector<Question> apart;     // At the middle.
-    std::vector<Question> in_first;  // In the first half alone.
+    std::vector<Question> apart;     // Pairs that are apart at the middle.
+    std::vector<Question> in_first;  // Pairs in the first half alone.
   };
 
   std::vector<GeometryCandidate> run_of(std::vector<Question> near) {
@@ -104,13 +104,13 @@ class Search {
     return std::move(found_);
   }
 
-  /// [m]  Of a tested pair, without tracking errors.
+  /// [m]  The margin of a tested pair, without tracking errors.
   [[nodiscard]] double margin_of(std::size_t pair) const {
     const double margin = distance_.value_or(timeline_.pairs()[pair].margin);
     return held_.empty() ? margin : std::max(margin, held_[pair]);
   }
 
-  /// Those of the tested geometries whose boxes are not farther apart than their margins.
+  /// The tested geometries whose boxes are not farther apart than their margins.
   std::vector<Question> near_by_boxes(const std::function<bool(std::size_t)>& wanted) {
     const std::vector<Box> boxes = boxes_of_piece();
     std::vector<Question> near;
@@ -145,7 +145,7 @@ class Search {
     return boxes;
   }
 
-  /// Windows are halved level by level: the sooner instants are seen all over the piece.
+  /// Halves windows level by level, so that early levels test instants all over the piece.
   void narrow(std::vector<Question> near) {
     std::deque<Part> parts;
     parts.push_back({{}, std::move(near)});
@@ -167,7 +167,7 @@ class Search {
     }
   }
 
-  /// Those for which shorter windows help; others that may touch are found.
+  /// The questions for which shorter windows help; the others that may touch become candidates.
   Open still_open(const Part& part) {
     Open open;
     std::vector<Question> near;
@@ -188,7 +188,7 @@ class Search {
       }
     }
     probe(suspects);
-    // Beside a contact at the middle the second half is of no interest.
+    // A contact at the middle makes the second half needless.
     if (part.window.can_be_halved() && contact_ && contact_->window.begin <= middle) {
       open.in_first = std::move(near);
       return open;
@@ -205,7 +205,7 @@ class Search {
     return {window, piece_, question.pair, question.geometries, margin, question.middle - margin};
   }
 
-  /// Asks the probe about candidates of one instant, the deepest first, until it sees a contact.
+  /// Probes candidates of one instant, the deepest first, until the probe finds a contact.
   void probe(std::vector<GeometryCandidate>& suspects) {
     std::sort(suspects.begin(), suspects.end());
     const auto hit = std::find_if(suspects.begin(), suspects.end(), [&](const auto& suspect) {
@@ -217,7 +217,7 @@ class Search {
     }
   }
 
-  /// Asks the probe about the end of the piece.
+  /// Probes the end of the piece.
   void probe_end(std::vector<Question>& near) {
     std::vector<GeometryCandidate> suspects;
     const double end = grid_.at(GridWindow::kSize);
@@ -226,7 +226,7 @@ class Search {
       const SweptGeometry& B = in_world(question.geometries[1], {});
       const double threshold = margin_of(question.pair) * kUp;
       if ((A.rests && B.rests) || boxes_are_far(question, A, B, threshold)) {
-        continue;  // What rests is seen at the middle.
+        continue;  // A pair at rest is tested at the middle.
       }
       const SweptGap gap = gap_at_end(A, B, threshold, question.n);
       question.n = gap.n;
@@ -262,8 +262,10 @@ class Search {
     return boxes_are_far(question, A, B, threshold) || hulls_are_far(question, A, B, threshold);
   }
 
-  /// In the world all pairs have their places in common. What is not far there may be so in a frame
-  /// of its own, in which what moves both has cancelled. False where there is no such frame.
+  /// Places a pair in a frame of its own, in which the motion of both has cancelled.
+  ///
+  /// In the world all pairs share their places. A pair that is not far there may be far in such a
+  /// frame. It returns false where there is no such frame.
   bool place_in_frame(Question& question) {
     const auto [first, second] = question.geometries;
     const std::optional<RobotLink> frame = frame_of(first, second);
@@ -331,7 +333,7 @@ class Search {
     return in_frames_[geometry].back().second;
   }
 
-  /// The last link that carries both, where it moves.
+  /// The last link that carries both, where that link moves.
   std::optional<RobotLink> frame_of(std::size_t a, std::size_t b) {
     const std::optional<RobotLink> link = timeline_.seat_of(a, middle_).link;
     const std::optional<RobotLink> other = timeline_.seat_of(b, middle_).link;
@@ -398,7 +400,7 @@ class Search {
     found_ = std::move(joined);
   }
 
-  /// Windows so short that the bound of tracking errors is tight.
+  /// Adds candidates for windows so short that the bound of tracking errors is tight.
   void add_thresholds(const GeometryCandidate& candidate, int depth) {
     const auto& [window, piece, pair, geometries, unused, gap, no_hold] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
@@ -421,7 +423,7 @@ class Search {
   std::size_t piece_;
   TimeGrid grid_;
   double middle_;                 // Time.
-  std::span<const double> held_;  // [m]  Of each tested pair, or empty.
+  std::span<const double> held_;  // [m]  For each tested pair, or empty.
   std::optional<double> distance_;
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
@@ -429,11 +431,11 @@ class Search {
   std::vector<std::optional<TreePoses>> robots_;
   std::deque<TreePoses> bodies_;
   std::deque<PlacedGeometry> placed_;
-  std::vector<std::optional<std::size_t>> in_world_;  // Of each geometry, where placed.
+  std::vector<std::optional<std::size_t>> in_world_;  // For each geometry, where it is placed.
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
   std::vector<GeometryCandidate> found_;
   const InstantProbe* probe_ = nullptr;
-  std::optional<GeometryCandidate> contact_;  // That the probe has seen: the earliest.
+  std::optional<GeometryCandidate> contact_;  // The earliest contact that the probe has found.
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// When two geometries are in contact.
+/// The times at which two geometries are in contact.
 
 #pragma once
 
@@ -12,19 +12,20 @@ namespace firstcontact::detail {
 
 /// The answer of a candidate over its window.
 struct GeometryAnswer {
-  FirstContactResult first;  ///< With contacts in the world. When free, `t` is 1.
+  FirstContactResult first;  ///< The first contact, with contacts in the world. When free, `t` is
+                             ///< 1.
   std::vector<ContactInterval> intervals;
   WorkCount work;
 };
 
-/// First contact in the window up to `horizon`.
+/// Finds the first contact in the window up to `horizon`.
 ///
 /// @param may_start_inside  whether the two were not tested just before the window
 [[nodiscard]] GeometryAnswer first_contact_of(GeometrySearch& search,
                                               const GeometryCandidate& candidate, double horizon,
                                               bool may_start_inside);
 
-/// All intervals of contact in the window, in order, with what the first of them is.
+/// Finds all intervals of contact in the window, in order, and the first contact.
 [[nodiscard]] GeometryAnswer contact_intervals_of(GeometrySearch& search,
                                                   const GeometryCandidate& candidate,
                                                   double resolution);

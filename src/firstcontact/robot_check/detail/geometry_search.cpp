@@ -17,7 +17,7 @@ const Shape& shape_of(const RobotTimeline& timeline, std::size_t geometry) {
   return *timeline.geometries()[geometry].shape;
 }
 
-/// [m]  Of a vertex in the shape's frame.
+/// [m]  The place of a vertex in the shape's frame.
 Eigen::Vector3d vertex_at(const Shape& shape, std::uint32_t vertex, double t) {
   const Eigen::Vector3d& from = shape.mesh().vertices[vertex];
   const std::span<const Eigen::Vector3d> to = shape.vertices_to();

@@ -14,54 +14,59 @@
 
 namespace firstcontact::detail {
 
-/// Why a check has to end now; none if it need not. Of the steps each search takes care itself.
+/// The limit that ends a check now; none if it may go on. Each search watches its steps itself.
 [[nodiscard]] UndecidedReason spent(const WorkBudget& budget);
 
-/// Two geometries in one window of time. Refers to all that it is made of.
+/// Two geometries in one window of time. Refers to all of its arguments.
 class GeometrySearch {
  public:
   GeometrySearch(const RobotTimeline& timeline, const GeometryCandidate& candidate,
                  const RobotCheckOptions& options, LinkWorkspace& workspace);
 
-  /// First contact in a window, before which the two are proven free and not inside of each other;
-  /// when free, `t` is its end. With the candidate's threshold or hold and the tolerance of the
-  /// options.
+  /// Finds the first contact in a window, with the candidate's threshold or hold.
+  ///
+  /// Before the window the two are proven free and not inside of each other. When free, `t` is its
+  /// end. The tolerance is that of the options.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
 
-  /// The same without hold or contacts, where `t` may be earlier than the contact by `early` [-];
-  /// `t_upper` is when that is. Of the result only verdict, reason and times are of meaning.
+  /// Finds the first contact without hold or contacts.
+  ///
+  /// `t` may be earlier than the contact by `early` [-]; `t_upper` is the time of the contact. Only
+  /// verdict, reason and times of the result have a meaning.
   [[nodiscard]] FirstContactResult first_contact_early(const TimeWindow& window, double early);
 
-  /// The same with others, and without contacts.
+  /// Finds the first contact with another margin and tolerance, without contacts.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
                                                  double tolerance);
 
-  /// How far apart the two are at the begin of the window, as far as keep_half has to know it.
+  /// The distance of the two at the begin of the window, as far as keep_half needs it.
   [[nodiscard]] StartGap start_gap(WorkCount& work);
 
-  /// The features that are no farther apart than a distance at a time of the piece, as a contact;
-  /// free where there are none.
+  /// The features that are no farther apart than a distance at a time of the piece.
+  ///
+  /// The result is a contact with them; free where there are none.
   [[nodiscard]] FirstContactResult features_within(double t, double distance);
 
-  /// At a time of the piece, with the closest features in the candidate's frame.
+  /// The distance at a time of the piece, with the closest features in the candidate's frame.
   [[nodiscard]] DistanceResult nearest(double t);
 
-  /// [m]  The same: rounded; 0 for one inside of a solid.
+  /// [m]  The distance of nearest(): rounded; 0 for one inside of a solid.
   [[nodiscard]] double distance(double t) { return nearest(t).distance; }
 
-  /// [m]  At a time of the piece, of the triangles that a contact of the two names: no less than
-  /// that of the geometries. Beside a curved shape it equals distance().
+  /// [m]  The distance, at a time of the piece, of the triangles that a contact of the two names.
+  ///
+  /// It is no less than that of the geometries. Beside a curved shape it equals distance().
   [[nodiscard]] double distance_of_triangles(const Contact& contact, double t);
 
-  /// Whether the two are proven farther apart at t, which costs less to know than the distance.
+  /// Whether the two are proven farther apart at t, which costs less than the distance.
   [[nodiscard]] bool is_farther(double t, double distance);
 
   /// Whether one is inside of the other, a solid.
   [[nodiscard]] bool is_inside(double t);
 
-  /// A contact in the candidate's frame at t as the world sees it.
+  /// Transforms a contact of the candidate's frame to the world at t.
   [[nodiscard]] Contact in_world(const Contact& contact, double t) const;
-  /// So, too, contacts of one t.
+  /// Transforms contacts of one t likewise.
   [[nodiscard]] std::vector<Contact> in_world(const std::vector<Contact>& contacts, double t) const;
 
  private:

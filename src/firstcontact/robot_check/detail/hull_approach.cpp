@@ -13,13 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [-]  Of the hulls' reach: nearer ones are left to the search of the shapes.
+/// [-]  Part of the hulls' reach; nearer hulls are left to the search of the shapes.
 constexpr double kHullsNear = 0x1p-14;
 
-/// Steps in a piece of the motion: about twice what most hulls take that come near.
+/// Most steps in a piece of the motion: about twice what most hulls take that come near.
 constexpr std::uint64_t kMostSteps = 6;
 
-/// Sums of a few rounded vectors.
+/// [-]  Rounding of sums of a few vectors.
 constexpr double kHullRounding = 0x1p-48;
 
 }  // namespace

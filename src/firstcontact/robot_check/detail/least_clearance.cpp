@@ -9,7 +9,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Two geometries in one piece of time, and how far apart balls say that they are.
+/// Two geometries in one piece of time, and the bound of their distance by balls.
 struct Place {
   GeometryCandidate candidate;
   double bound = 0.0;  ///< [m]
@@ -38,7 +38,8 @@ std::vector<Place> places_by_distance(const RobotTimeline& timeline, const Balls
 ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfPieces& balls,
                                    std::size_t pair, const RobotCheckOptions& options,
                                    LinkWorkspace& workspace) {
-  constexpr std::size_t kLooks = 8;  // What is near half way is likely to be nearest.
+  constexpr std::size_t kLooks = 8;  // Geometries that are near at the middle are likely to be
+                                     // nearest.
   const double tolerance = kShareOfTolerance * options.tolerance;
   const std::vector<Place> places = places_by_distance(timeline, balls, pair);
   const auto search_of = [&](const Place& place) {
@@ -64,7 +65,8 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
     GeometrySearch search = search_of(*nearest);
     descent.descend(search, window, 0.5 * (window.begin + window.end));
   }
-  double unproven = std::numeric_limits<double>::infinity();  // [m]  Where the budget ended it.
+  double unproven = std::numeric_limits<double>::infinity();  // [m]  Bound where the budget ended
+                                                              // the search.
   for (const Place& place : places) {
     if (place.bound >= best.distance - tolerance || best.distance <= tolerance) {
       break;
@@ -72,7 +74,7 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
     GeometrySearch search = search_of(place);
     descent.run(search, place.candidate.window);
     if (best.reason != UndecidedReason::none) {
-      unproven = place.bound;  // Those that come later are no nearer.
+      unproven = place.bound;  // Later places are no nearer.
       break;
     }
   }

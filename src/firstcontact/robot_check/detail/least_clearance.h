@@ -1,5 +1,5 @@
 /// @file
-/// How close two members come.
+/// The least distance of two members.
 
 #pragma once
 
@@ -18,9 +18,10 @@ using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 
 /// The least distance of a tested pair over all pieces in which it is tested.
 ///
-/// Pieces are taken in the order of what balls say of them. Looks half way through the first of
-/// them, samples and descent find a distance; first contact with a margin of it less the tolerance
-/// proves it, or finds a lesser one. Where the budget ends that, what balls say of the rest holds.
+/// Pieces are taken in the order of the bounds by their balls. Looks at the middle of the first
+/// pieces, samples and descent find a distance. A first contact with a margin of that distance less
+/// the tolerance proves it, or finds a lesser one. Where the budget ends the search, the balls
+/// bound the rest.
 [[nodiscard]] ClosestApproach least_clearance_of(const RobotTimeline& timeline,
                                                  const BallsOfPieces& balls, std::size_t pair,
                                                  const RobotCheckOptions& options,

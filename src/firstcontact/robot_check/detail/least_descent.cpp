@@ -30,7 +30,7 @@ Bracket bracket(const TimeWindow& window, int samples, const Distance& distance)
   return {at(std::max(least - 1, 0)), at(least), at(std::min(least + 1, samples))};
 }
 
-/// Descends from the middle; returns the time of the least distance that it saw.
+/// Descends from the middle; returns the time of the least distance that it found.
 template <class Distance>
 double narrow(Bracket times, const Distance& distance) {
   constexpr int kSteps = 24;
@@ -82,7 +82,7 @@ void LeastDescent::descend(GeometrySearch& search, const TimeWindow& window, dou
     before = best_.distance;
   }
   if (best_.distance > tolerance_ && best_.t == t) {
-    sample(search, window);  // Other triangles are closest at each time.
+    sample(search, window);  // At each time other triangles are closest.
   }
 }
 

@@ -14,16 +14,16 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Pairs that are looked at first: what balls say is nearest is likely to be so.
+/// Number of pairs that are looked at first: the nearest by balls are likely to be nearest.
 constexpr std::size_t kLooks = 32;
 
-/// Pieces of time looked at together, and searches done side by side with the same distance: few at
-/// first, as what one finds spares the others. Fixed, so that answers do not depend on the number
-/// of threads.
+/// Number of pieces that are looked at together, and of searches with the same distance. Rounds are
+/// small at first, as one result makes other searches needless. Both are fixed, so that answers do
+/// not depend on the number of threads.
 constexpr std::size_t kBlock = 32;
 constexpr std::size_t kLargestRound = 32;
 
-/// Two geometries in one piece of time, and how far apart balls say that they are.
+/// Two geometries in one piece of time, and the bound of their distance by balls.
 struct Place {
   GeometryCandidate candidate;
   double bound = std::numeric_limits<double>::infinity();  // [m]
@@ -51,7 +51,7 @@ class Search {
     look_at(places);
     prove_all();
     const double proven = found_.least.distance - tolerance();
-    // Where the search was ended, balls are all that is known.
+    // Where the search was ended, only the bounds by balls are known.
     found_.least.lower_bound =
         std::max(0.0, is_ended() ? std::min(proven, places.front().bound) : proven);
     return found_;
@@ -62,7 +62,7 @@ class Search {
 
   [[nodiscard]] bool is_ended() const { return found_.least.reason != UndecidedReason::none; }
 
-  /// Whether no lesser distance is of interest, or none can be looked for.
+  /// Whether no lesser distance is of interest, or the search has to end.
   [[nodiscard]] bool is_done() {
     if (!is_ended()) {
       found_.least.reason = spent(options_.budget);
@@ -70,7 +70,7 @@ class Search {
     return is_ended() || found_.least.distance <= tolerance();
   }
 
-  /// Whether the two are nearer at t than all that was found so far.
+  /// Whether the two are nearer at t than all distances found so far.
   bool look(const GeometryCandidate& candidate, double t) {
     GeometrySearch search(timeline_, candidate, options_, workspaces_.local());
     const bool is_nearer = LeastDescent(options_, found_.least).improve(search, t);
@@ -127,7 +127,7 @@ class Search {
     }
   }
 
-  /// Half way, until no ball is nearer; and down from the least distance.
+  /// Looks at the middles of places until no ball is nearer, then descends from the least distance.
   void look_at(const std::vector<Place>& places) {
     const Place* nearest = nullptr;
     for (std::size_t k = 0; k < std::min(kLooks, places.size()); ++k) {
@@ -145,7 +145,7 @@ class Search {
     }
   }
 
-  /// Proves that nothing comes nearer, or finds what does.
+  /// Proves that no pair comes nearer, or finds one that does.
   void prove_all() {
     for (std::size_t first = 0; first < timeline_.piece_count() && !is_done(); first += kBlock) {
       const std::size_t last = std::min(first + kBlock, timeline_.piece_count());

@@ -1,5 +1,5 @@
 /// @file
-/// The pair of members that comes closest of all.
+/// The closest pair of all members.
 
 #pragma once
 
@@ -19,7 +19,7 @@ using LinkWorkspaces = tbb::enumerable_thread_specific<LinkWorkspace>;
 
 struct LeastOfAll {
   std::size_t pair = 0;   ///< Index among the tested pairs.
-  ClosestApproach least;  ///< Its lower bound holds for all pairs.
+  ClosestApproach least;  ///< Least distance; its lower bound holds for all pairs.
 };
 
 /// Two geometries at a time at which they are known to be near each other.
@@ -28,15 +28,13 @@ struct KnownNear {
   double t = 0.0;
 };
 
-/// The least distance of all tested pairs over all pieces in which they are tested.
+/// The least distance of all tested pairs over all pieces in which they are tested; none where no
+/// pair is tested.
 ///
-/// Looks at the geometries of each pair that balls around them say are nearest, and goes down from
-/// the least distance found. Then candidates for coming nearer than that are searched, piece by
-/// piece, as those for contacts are; what one of them finds holds for the next ones. Several are
-/// searched at a time, always so many by the same distance, so that the number of threads changes
-/// nothing.
-///
-/// None where no pair is tested.
+/// It first looks at the nearest geometries of each pair, by the balls around them, and descends
+/// from the least distance found. Then it searches for candidates that come nearer, piece by piece,
+/// as for contacts. The result of one search holds for the next ones. Several are searched at a
+/// time, always so many by the same distance, so that the number of threads changes nothing.
 [[nodiscard]] std::optional<LeastOfAll> least_of_all(const RobotTimeline& timeline,
                                                      const CandidateSearch& candidates,
                                                      const std::optional<KnownNear>& known,

@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// All that queries of links reuse; one per thread.
+/// Memory that queries of links reuse; each thread needs its own.
 struct LinkWorkspace {
   Workspace queries;
   LinkScratch places;
@@ -20,19 +20,21 @@ void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& w
                    LinkWorkspace& workspace, const FirstContactOptions& options,
                    FirstContactResult& result);
 
-/// As detail::first_contact_early of a pair of shapes, from where their hulls come near. The
-/// verdict, the reason and the times are set, no contact state is.
+/// Finds the first contact as detail::first_contact_early() of a pair of shapes, from where their
+/// hulls come near.
+///
+/// It sets the verdict, the reason and the times, but no contacts.
 void first_contact_early(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
                          const ShapeHull& hull_B, const TimeWindow& window, double early,
                          LinkWorkspace& workspace, const FirstContactOptions& options,
                          FirstContactResult& result);
 
-/// As detail::first_contact_held of a pair of shapes.
+/// Finds the first contact as detail::first_contact_held() of a pair of shapes.
 void first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                         const Hold& hold, LinkWorkspace& workspace,
                         const FirstContactOptions& options, FirstContactResult& result);
 
-/// As detail::start_gap of a pair of shapes.
+/// Finds the gap as detail::start_gap() of a pair of shapes.
 [[nodiscard]] StartGap start_gap(const MovingLink& A, const MovingLink& B, double t,
                                  LinkWorkspace& workspace, const FirstContactOptions& options,
                                  WorkCount& work);

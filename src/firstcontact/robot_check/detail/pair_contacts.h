@@ -1,5 +1,5 @@
 /// @file
-/// The contacts of two members at one time, which may be those of several of their geometries.
+/// The contacts of two members at one time, from all of their geometries.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// Keeps all, or at most so many that ContactSelection chooses.
+/// Keeps all contacts, or at most so many that ContactSelection chooses.
 class PairContacts {
  public:
   explicit PairContacts(std::size_t most) : most_(most) {}
@@ -21,13 +21,13 @@ class PairContacts {
   void clear();
   void add(std::span<const Contact> contacts);
 
-  /// All that is kept. Nothing may be added afterwards.
+  /// Returns all kept contacts. Nothing may be added afterwards.
   [[nodiscard]] std::vector<Contact> take();
 
  private:
   std::size_t most_;
   std::vector<Contact> all_;
-  std::optional<ContactSelection<Contact>> selection_;  // Where there are more.
+  std::optional<ContactSelection<Contact>> selection_;  // Only where there are more than are kept.
 };
 
 }  // namespace firstcontact::detail

@@ -1,5 +1,5 @@
 /// @file
-/// How near pairs of members may come that begin in contact: StartContacts::keep_half.
+/// The holds of pairs of members that begin in contact: StartContacts::keep_half.
 
 #pragma once
 
@@ -15,10 +15,10 @@
 
 namespace firstcontact::detail {
 
-/// A stretch of time in which a pair is tested, and how near it may come in it.
+/// A stretch of time in which a pair is tested, and its hold there.
 struct HeldStretch {
   std::size_t first_piece = 0;
-  Hold hold;  ///< By the least distance of all geometries where the stretch begins.
+  Hold hold;  ///< Hold by the least distance of all geometries at the begin of the stretch.
   WorkCount work;
 };
 
@@ -28,18 +28,19 @@ class PairHolds {
   PairHolds(const RobotTimeline& timeline, const RobotCheckOptions& options,
             LinkWorkspaces& workspaces);
 
-  /// [m]  For each tested pair the greatest distance that it is held to; no less than 0.
+  /// [m]  For each tested pair the greatest distance of its holds; at least 0.
   [[nodiscard]] std::span<const double> greatest() const { return greatest_; }
 
-  /// [m]  A tested pair stays farther apart before its first contact.
+  /// [m]  The distance beyond which a tested pair stays before its first contact.
   [[nodiscard]] double least(std::size_t pair) const;
 
-  /// In order of time.
+  /// The stretches of a pair, in order of time.
   [[nodiscard]] std::span<const HeldStretch> stretches(std::size_t pair) const {
     return stretches_[pair];
   }
 
-  /// Holds a candidate as its pair is held in its piece, with the margin in place of the greatest.
+  /// Holds a candidate as its pair is held in its piece, with the margin instead of the greatest
+  /// hold.
   void apply(GeometryCandidate& candidate) const;
 
  private:

@@ -17,10 +17,10 @@
 
 namespace firstcontact::detail {
 
-/// A geometry in one frame over a piece of time. Windows that share times share the places there.
+/// A geometry in one frame over a piece of time. Windows share the places at common times.
 class PlacedGeometry {
  public:
-  /// @param path  the same in F, where it is asked for tracking errors
+  /// @param path  its path in F, for tracking errors
   PlacedGeometry(const BoundedGeometry& geometry, const GeometryMount& mount, std::size_t frame,
                  const TimeGrid& grid, std::optional<GeometryPath> path)
       : geometry_(&geometry), track_(geometry, mount, frame), grid_(grid), path_(std::move(path)) {
@@ -32,7 +32,7 @@ class PlacedGeometry {
     }
   }
 
-  /// Valid until the next call.
+  /// The geometry over a window. Valid until the next call.
   const SweptGeometry& over(const GridWindow& window) {
     if (!track_.rests() && !(window == window_)) {
       const GeometryPlace begin = place(window.begin);
@@ -43,13 +43,13 @@ class PlacedGeometry {
     return swept_;
   }
 
-  /// [m]  How far any point may be from its place in the window.
+  /// [m]  Bound of the distance of any point from its place in the window.
   [[nodiscard]] double tracking_bound(const GridWindow& window) const {
     return path_ ? path_->tracking_bound(geometry_->box, grid_.at(window)) : 0.0;
   }
 
  private:
-  static constexpr std::size_t kFewPlaces = 5;  // Of the piece and its halves.
+  static constexpr std::size_t kFewPlaces = 5;  // Places of the piece and its halves.
 
   const GeometryPlace& place(int k) {
     std::int16_t& index = known_[static_cast<std::size_t>(k)];
@@ -65,9 +65,9 @@ class PlacedGeometry {
   TimeGrid grid_;
   std::optional<GeometryPath> path_;
   std::array<std::int16_t, GridWindow::kSize + 1> known_ =
-      {};  // Where in places_; < 0 for nowhere.
+      {};  // Indices into places_; < 0 for none.
   std::vector<GeometryPlace> places_;
-  GridWindow window_ = {0, 0};  // Of swept_.
+  GridWindow window_ = {0, 0};  // Window of swept_.
   SweptGeometry swept_;
 };
 

@@ -23,7 +23,7 @@ RoundedBox box_around(const Shape& shape) {
   return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
 }
 
-/// The error of each joint; that of a screw slides, too. Empty if all are zero.
+/// The error of each joint; a screw slides, too. Empty if all are zero.
 std::vector<TrackingError> errors_of(const RobotScene& scene, std::size_t robot) {
   std::vector<TrackingError> errors = scene.tracking_errors(robot);
   const auto joints = scene.robot_motion(robot).model().joints();
@@ -139,7 +139,7 @@ std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member
       seat.ends = {1.0};
       seat.pieces = {std::make_shared<const JointPath>(
           JointPath::of_motion({}, rest.path(0, Eigen::Vector3d::Zero())))};
-      // It was put down as far off as it was carried.
+      // The body was put down with the error with which it was carried.
       const double t = stretch.t_begin;
       seat.rest_error = path(seats.back(), t, std::nullopt).tracking_bound(ball, {t, t});
     } else {
@@ -187,7 +187,7 @@ void RobotTimeline::find_breaks() {
   breaks_ = {0.0};
   const auto add = [&](std::span<const double> times) {
     for (const double t : times) {
-      if (t != breaks_.back()) {  // Most are the same.
+      if (t != breaks_.back()) {  // Most are equal.
         breaks_.push_back(t);
       }
     }
@@ -265,9 +265,9 @@ GeometryPath RobotTimeline::path(const Seat& seat, double t,
   if (!joint_errors_[seat.link->robot].empty()) {
     path.errors = errors_along(*seat.link, frame.value_or(motion.model().root()));
     if (!frame) {
-      path.errors.insert(path.errors.begin(), TrackingError{});  // Of the base.
+      path.errors.insert(path.errors.begin(), TrackingError{});  // Error of the base.
     }
-    path.errors.push_back({});  // Of the geometry in the link.
+    path.errors.push_back({});  // Error of the geometry in the link.
   }
   return path;
 }

@@ -1,6 +1,6 @@
 /// @file
-/// A robot scene laid out in time: its geometries, the pairs that are tested, and the paths of both
-/// in a frame that they share.
+/// A robot scene laid out in time: its geometries, the tested pairs, and their paths in a shared
+/// frame.
 
 #pragma once
 
@@ -19,26 +19,26 @@
 
 namespace firstcontact::detail {
 
-/// One geometry of a member, with its bounds: at all times of the step, where it deforms.
+/// One geometry of a member, with its bounds; where it deforms, at all times of the step.
 struct BoundedGeometry {
   std::size_t member = 0;
-  std::size_t index = 0;  ///< Among the geometries of the member.
+  std::size_t index = 0;  ///< Index among the geometries of the member.
   const Shape* shape = nullptr;
-  RoundedBox ball;     ///< Around the shape, thickening included, in its frame S.
-  RoundedBox box;      ///< So too.
-  double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
-  bool rests = false;  ///< Its frame S, and so its bounds, over the whole step.
-  std::vector<Eigen::Vector3d> corners = {};  ///< As hull_corners().
+  RoundedBox ball;     ///< Ball around the shape, thickening included, in its frame S.
+  RoundedBox box;      ///< Box around the shape likewise.
+  double reach = 0.0;  ///< [m]  Reach of the thickened shape from the centre of the box.
+  bool rests = false;  ///< Whether its frame S, and so its bounds, rest over the whole step.
+  std::vector<Eigen::Vector3d> corners = {};  ///< Corners as hull_corners() has them.
 };
 
-/// Two members that are tested, but for the times of `pauses`.
+/// Two members that are tested, except at the times of `pauses`.
 struct TestedPair {
   BodyPair members = {};
-  double margin = 0.0;  ///< [m]  With both paddings.
+  double margin = 0.0;  ///< [m]  Margin with both paddings.
   std::vector<TimeWindow> pauses = {};
 };
 
-/// Each geometry of one member with each of another, in order: what `for` runs over.
+/// Each geometry of one member with each of another, in order, as a range for `for`.
 class GeometryPairs {
  public:
   class Iterator {
@@ -58,7 +58,7 @@ class GeometryPairs {
     std::array<std::size_t, 2> at_;
   };
 
-  /// @param a, b  the first geometry of each member; no member is without one
+  /// @param a, b  the first geometry of each member; each member has at least one
   GeometryPairs(std::size_t a, std::size_t a_end, std::size_t b, std::size_t b_end)
       : a_(a), a_end_(a_end), b_(b), b_end_(b_end) {}
   [[nodiscard]] Iterator begin() const { return {*this, a_}; }
@@ -71,19 +71,19 @@ class GeometryPairs {
   std::size_t b_end_;
 };
 
-/// X_FS(t) of a geometry over a piece of time, and how well it is followed.
+/// The path X_FS(t) of a geometry over a piece of time, and its tracking errors.
 struct GeometryPath {
   LinkPath X_FS;
   std::vector<TrackingError> errors;  ///< One for each joint of the path; empty if all are zero.
-  double rest_error = 0.0;            ///< [m]  Of a body that was put down.
+  double rest_error = 0.0;            ///< [m]  Error of a body that was put down.
 
-  /// [m]  How far any point may be from its place in the window.
+  /// [m]  Bound of the distance of any point from its place in the window.
   [[nodiscard]] double tracking_bound(const RoundedBox& ball, const TimeWindow& window) const;
 };
 
-/// The seat of a geometry over a piece of time: a link, or its own path in the world.
+/// The carrier of a geometry over a piece of time: a link, or its own path in the world.
 struct GeometryCarrier {
-  std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
+  std::optional<RobotLink> link;    ///< The root of the links that are fixed to each other.
   const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
 };
 
@@ -94,25 +94,27 @@ struct PairPaths {
   std::optional<RobotLink> frame;  ///< None: the world.
 };
 
-/// Refers to the scene, which must not change meanwhile.
+/// A robot scene laid out in time. Refers to the scene, which must not change meanwhile.
 class RobotTimeline {
  public:
   explicit RobotTimeline(const RobotScene& scene);
 
-  /// Lays out anew what depends on the motions of robots.
+  /// Renews all data that depend on the motions of robots.
   void follow_motions();
 
   [[nodiscard]] const RobotScene& scene() const { return scene_; }
 
   [[nodiscard]] std::span<const BoundedGeometry> geometries() const { return geometries_; }
-  /// The geometries of the first member of a pair, and those of the second one, to test together.
+  /// The pairs of a geometry of the first member and one of the second that are to be tested.
   [[nodiscard]] GeometryPairs geometry_pairs(const TestedPair& pair) const {
     const auto [first, second] = pair.members;
     return {first_geometry_[first], first_geometry_[first + 1], first_geometry_[second],
             first_geometry_[second + 1]};
   }
-  [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }  ///< In order.
-  /// [m]  Of all pairs that are tested in some piece; infinite where there are none.
+  /// The tested pairs, in order.
+  [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }
+  /// [m]  The least margin of all pairs that are tested in some piece; infinite where there are
+  /// none.
   [[nodiscard]] double least_margin() const { return least_margin_; }
 
   /// Whether any threshold depends on time.
@@ -126,28 +128,32 @@ class RobotTimeline {
   /// Whether the pair is tested in some piece.
   [[nodiscard]] bool is_tested(const TestedPair& pair) const;
 
-  /// In the world, over the piece around t.
+  /// The path of a geometry in the world, over the piece around t.
   [[nodiscard]] GeometryPath path(std::size_t geometry, double t) const;
 
-  /// In a link that carries the geometry, or in the world where there is none.
+  /// The path of a geometry in a link that carries it, or in the world.
   [[nodiscard]] GeometryPath path(std::size_t geometry, double t,
                                   const std::optional<RobotLink>& frame) const;
 
-  /// Over the piece around t; valid as long as this, and the motions.
+  /// The carrier of a geometry over the piece around t; valid as long as this object and the
+  /// motions.
   [[nodiscard]] GeometryCarrier seat_of(std::size_t geometry, double t) const;
 
+  /// The paths of two geometries in one frame.
+  ///
   /// @param a, b  geometries
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;
 
  private:
-  /// The seat of a geometry until t_end: a link, as the root of those that are fixed to each other.
+  /// The seat of a geometry until t_end.
   ///
-  /// Or it is the world, in which the geometry follows pieces of its own.
+  /// It is a link, as the root of those that are fixed to each other. Or it is the world, in which
+  /// the geometry follows pieces of its own.
   struct Seat {
     double t_end = 1.0;
     std::optional<RobotLink> link;
-    std::shared_ptr<const JointPath> X_LS;  // Of a link.
-    std::vector<double> ends;               // Of a body's pieces.
+    std::shared_ptr<const JointPath> X_LS;  // Only for a link.
+    std::vector<double> ends;               // Ends of a body's pieces.
     std::vector<std::shared_ptr<const JointPath>> pieces;
     double rest_error = 0.0;
 
@@ -170,13 +176,13 @@ class RobotTimeline {
 
   const RobotScene& scene_;
   std::vector<BoundedGeometry> geometries_;
-  std::vector<std::vector<Seat>> seats_;  // Of each geometry, in order of time.
+  std::vector<std::vector<Seat>> seats_;  // For each geometry, in order of time.
   /// The geometries of a member are first_geometry_[member], ... below first_geometry_[member + 1].
   std::vector<std::size_t> first_geometry_;
   std::vector<TestedPair> pairs_;
   double least_margin_ = std::numeric_limits<double>::infinity();
   std::vector<double> breaks_;
-  std::vector<std::vector<TrackingError>> joint_errors_;  // Of each robot; empty if all are zero.
+  std::vector<std::vector<TrackingError>> joint_errors_;  // For each robot; empty if all are zero.
 };
 
 }  // namespace firstcontact::detail

@@ -1,6 +1,8 @@
 /// @file
-/// A ball around a geometry wherever it is in a window of time: a little that is kept for every
-/// piece of a long trajectory. SweptGeometry says more, at ten times the memory.
+/// A ball around a geometry at all times of a window.
+///
+/// One is kept for every piece of a long trajectory. SweptGeometry is tighter, at ten times the
+/// memory.
 
 #pragma once
 
@@ -12,11 +14,11 @@
 
 namespace firstcontact::detail {
 
-/// A ball around a geometry wherever it is in a window.
+/// A ball around a geometry at all times of a window.
 struct SweptBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the world.
   double radius = 0.0;                               ///< [m]
-  double tracking_error = 0.0;  ///< [m]  Bounds that of the geometry; not in the radius.
+  double tracking_error = 0.0;  ///< [m]  Bound of the geometry's tracking error; not in the radius.
 };
 
 [[nodiscard]] SweptBall swept_ball(const RoundedBox& ball, const GeometryPath& path,

@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// Products and sums of a few vectors, and of unit vectors that are so but for rounding.
+/// [-]  Rounding of products and sums of a few vectors, and of unit vectors.
 constexpr double kRounding = 0x1p-46;
 
-/// A middle of two times, twice, that is rounded.
+/// [-]  Rounding of a middle of two times, twice.
 constexpr double kTimeRounding = 0x1p-51;
 
 void enclose(SweptGeometry& swept, std::span<const GeometryPlace> places) {

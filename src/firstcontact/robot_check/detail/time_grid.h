@@ -7,10 +7,11 @@
 
 namespace firstcontact::detail {
 
-/// Halvings of a piece of time. More cost more places of links than they spare searches.
+/// Number of halvings of a piece of time. More of them cost more in places of links than they save
+/// in searches.
 inline constexpr int kHalvings = 3;
 
-/// A window of time that halving a piece makes, by the numbers of its ends in a grid.
+/// A window of time from halving a piece, by the numbers of its ends in a grid.
 struct GridWindow {
   static constexpr int kSize = 2 << kHalvings;  ///< The shortest windows have a middle, too.
 

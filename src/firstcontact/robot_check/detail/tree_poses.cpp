@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// As ChainWalk adds a joint to its pose.
+/// Passes a joint, as ChainWalk adds it to its pose.
 FramePlace pass(const FramePlace& parent, const JointState& joint) {
   const Vector3d step = joint.p_PQ.value();
   FramePlace child;

@@ -21,21 +21,22 @@ struct FramePlace {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< [m]
   double rotation_error = 0.0;                  ///< [-]  R y is within this of exact, per |y|.
-  double position_error = 0.0;                  ///< [m]  By rotations and pivots.
-  double rounding = 0.0;                        ///< [m]  Of p.
-  double length = 0.0;                          ///< [m]  Of the chain that leads here.
+  double position_error = 0.0;                  ///< [m]  Error by rotations and pivots.
+  double rounding = 0.0;                        ///< [m]  Rounding of p.
+  double length = 0.0;                          ///< [m]  Length of the chain to the frame.
 };
 
-/// A robot, or a body that moves on its own: the links that joints move against each other. What
-/// ChainMemory knows of one chain after the other, without velocities, for all links at once: cheap
-/// where most of them are asked about.
+/// The poses of a robot's links, or of a body that moves on its own, at the times of a grid.
+///
+/// It has for all links at once what ChainMemory has for one chain after another, without
+/// velocities. That saves work where most links are needed.
 class TreePoses {
  public:
   static constexpr std::size_t kWorld = std::numeric_limits<std::size_t>::max();
 
   struct Node {
-    std::size_t parent = kWorld;      ///< Comes before it.
-    const JointPath* path = nullptr;  ///< From the parent; smooth in the piece.
+    std::size_t parent = kWorld;      ///< Index of the parent, which comes before the node.
+    const JointPath* path = nullptr;  ///< Path from the parent; smooth in the piece.
   };
 
   TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid);
@@ -43,21 +44,21 @@ class TreePoses {
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] std::size_t parent(std::size_t node) const { return joints_[node].node.parent; }
 
-  /// At a time of the grid.
+  /// The place of a node at a time of the grid.
   [[nodiscard]] const FramePlace& place(std::size_t node, int k);
 
-  /// Whether it does not move in the world.
+  /// Whether a node rests in the world.
   [[nodiscard]] bool rests(std::size_t node) const { return joints_[node].rests; }
 
   /// Bounds the derivatives of every point of a ball that is fixed in a node, over the piece.
   ///
-  /// They are as seen from a node that carries it, or the world. The derivation is that of
-  /// LinkPath::window().
+  /// They are as seen from `frame`, a node that carries it or the world. LinkPath::window() has the
+  /// derivation.
   [[nodiscard]] CoordinateSegment::Bounds bounds(std::size_t node, const Eigen::Vector3d& p_LC,
                                                  double reach, std::size_t frame);
 
  private:
-  /// At the middle of the piece, in the world.
+  /// The axis and the lengths of a joint at the middle of the piece, in the world.
   struct Lever {
     Eigen::Vector3d p_WQ;  // [m]
     Eigen::Vector3d axis;  // [-]
@@ -67,15 +68,16 @@ class TreePoses {
   };
   struct Joint {
     Node node;
-    bool rests = false;  // With all that it hangs on.
+    bool rests = false;  // Whether the node rests, with all nodes above it.
   };
   void place_all(int k);
   void add_lever(const FramePlace& parent, const JointState& state, const JointPath& path);
 
   TimeGrid grid_;
   std::vector<Joint> joints_;
-  std::vector<Lever> levers_;  // Empty until a place at the middle was asked for.
-  std::array<std::vector<FramePlace>, GridWindow::kSize + 1> places_;  // So, too, each.
+  std::vector<Lever> levers_;  // Empty until a place at the middle is needed.
+  // Each is empty likewise.
+  std::array<std::vector<FramePlace>, GridWindow::kSize + 1> places_;
 };
 
 }  // namespace firstcontact::detail
