@@ -6,7 +6,7 @@
 namespace firstcontact {
 namespace {
 
-/// Motion of each kind; the overloads are picked by std::visit.
+/// Makes a motion of each kind; the overloads are picked by std::visit.
 struct MotionMaker {
   double duration;
 

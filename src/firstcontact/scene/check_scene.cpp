@@ -22,7 +22,8 @@ using Clock = std::chrono::steady_clock;
 WorkBudget budget_of(const Scene& scene, const CheckOptions& options) {
   WorkBudget budget;
   budget.stop = options.stop;
-  constexpr double kYear = 3e7;  // [s]  Longer deadlines are none, and would overflow the clock.
+  constexpr double kYear = 3e7;  // [s]  Longer deadlines count as none, and would overflow the
+                                 // clock.
   if (scene.options.deadline && *scene.options.deadline <= kYear) {
     budget.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                          std::chrono::duration<double>(*scene.options.deadline));
@@ -43,8 +44,9 @@ ManyBodiesOptions query_options(const Scene& scene, const CheckOptions& options)
           .progress = options.progress};
 }
 
-/// [m]  Of any two bodies: of those whose triangles are asked. Curved ones are asked by theirs
-/// where a partner deforms.
+/// [m]  The greatest enclosure error of any two bodies that are tested by their triangles.
+///
+/// Curved bodies are tested by triangles where a partner deforms.
 double greatest_enclosure_error(std::span<const Shape* const> shapes) {
   const bool any_deforms = std::any_of(shapes.begin(), shapes.end(), [](const Shape* shape) {
     return shape->hierarchy().deforms();
@@ -59,7 +61,7 @@ double greatest_enclosure_error(std::span<const Shape* const> shapes) {
   return greatest + second;
 }
 
-/// Of all bodies and links.
+/// The shapes of all bodies and links.
 std::vector<const Shape*> shapes_of(const LoadedScene& loaded) {
   std::vector<const Shape*> shapes;
   for (std::size_t k = 0; !loaded.robots && k < loaded.bodies.size(); ++k) {

@@ -3,7 +3,7 @@
 namespace firstcontact {
 namespace {
 
-/// Who or what keeps the pairs from being looked at.
+/// The reason for which the pairs are not tested, in words.
 const char* reason_text(WhyUntested why) {
   switch (why) {
     case WhyUntested::joined_links:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRounding = 0x1p-40;
 
-/// [m per step]  Of any point of the body.
+/// [m per step]  Bound of the speed of any point of the body.
 double greatest_speed(const BodySet& bodies, std::size_t body) {
   const double radius = bodies.shape(body).hierarchy().radius + bodies.shape(body).radius();
   const double deformation = bodies.shape(body).hierarchy().deformation_speed;
@@ -36,7 +36,7 @@ class Cone {
   [[nodiscard]] double at(double t) const {
     return std::max(floor_, apex_ - rate_ * std::abs(t - t_));
   }
-  /// How long the cone is above its floor, to each side.
+  /// [-]  The time for which the cone is above its floor, to each side.
   [[nodiscard]] double width() const { return rate_ > 0.0 ? (apex_ - floor_) / rate_ : 1.0; }
   [[nodiscard]] double t() const { return t_; }
   [[nodiscard]] double apex() const { return apex_; }
@@ -48,7 +48,8 @@ class Cone {
   double floor_;
 };
 
-/// The corners of the greater of two cones between their samples, after that at the left one.
+/// Appends the corners of the greater of two cones between their samples, after that of the left
+/// one.
 void append_between(const Cone& left, const Cone& right, double rate,
                     std::vector<GapPoint>& points) {
   const double meet = rate > 0.0
@@ -63,7 +64,7 @@ void append_between(const Cone& left, const Cone& right, double rate,
   }
 }
 
-/// Beside robots only the clearance is known: it holds until the result's t.
+/// The bound in a scene with robots: the clearance until the result's t.
 std::vector<GapPoint> clearance_until(const SceneResult& result,
                                       std::span<const GapSample> samples) {
   std::vector<GapPoint> points;

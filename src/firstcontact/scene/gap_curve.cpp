@@ -11,11 +11,13 @@
 namespace firstcontact {
 namespace {
 
-constexpr std::size_t kFirstSamples = 129;  // Several for each ripple of a nut in five turns.
+constexpr std::size_t kFirstSamples = 129;  // Several samples for each ripple of a nut in five
+                                            // turns.
 constexpr int kRounds = 4;                  // Each halves the intervals that it refines.
-constexpr double kSeen = 2e-2;              // Of the height; half way the line is off by a quarter.
+constexpr double kSeen = 2e-2;  // [-]  Part of the height; half way between samples the line is off
+                                // by a quarter of it.
 
-/// How far a sample is from the straight line between its neighbours.
+/// The distance of a sample from the straight line between its neighbours.
 double bend(const GapSample& before, const GapSample& sample, const GapSample& after) {
   const double share = (sample.t - before.t) / (after.t - before.t);
   return std::abs(before.distance + share * (after.distance - before.distance) - sample.distance);

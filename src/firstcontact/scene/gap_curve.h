@@ -14,13 +14,13 @@ namespace firstcontact {
 struct LoadedScene;
 struct SceneResult;
 
-/// [-]  Where a plot looks closely: at the contact, or else at the closest approach.
+/// [-]  The time that a plot shows in detail: the contact, or else the closest approach.
 [[nodiscard]] FIRSTCONTACT_API double time_of_interest(const SceneResult& result);
 
 /// Samples over the whole step, few where the curve is straight and many where it bends.
 ///
-/// @param focus  [-]  a time that is among them, such as that of a contact
-/// @param stop   ends it early, with fewer samples
+/// @param focus  [-]  a time that is among the samples, such as that of a contact
+/// @param stop   ends the sampling early, with fewer samples
 [[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> gap_curve(const LoadedScene& loaded,
                                                                 double focus,
                                                                 const std::stop_token& stop = {});

@@ -16,10 +16,10 @@
 namespace firstcontact {
 namespace {
 
-/// [-]  Of the distance of a contact pair: no farther beyond it is in contact.
+/// [-]  Part of the distance of a contact pair by which a contact may exceed it.
 constexpr double kToleranceOfContactPairs = 0.01;
 
-/// The padding of a link, if the member is one that has some.
+/// The padding of a link, if the member is a link with padding.
 struct Padding {
   SceneRobot* robot = nullptr;
   std::size_t link = 0;
@@ -74,7 +74,7 @@ void hold_contact_pairs(std::span<const NamedContactPair> pairs, Scene& scene) {
   }
   const Members members(scene);
   std::map<BodyPair, double> margins;
-  std::set<std::size_t> bare;  // Their paddings go into margins.
+  std::set<std::size_t> bare;  // Links whose paddings move into margins.
   for (const NamedContactPair& named : pairs) {
     const BodyPair pair = members.pair(named);
     margins[pair] = named.distance;

@@ -12,7 +12,7 @@
 namespace firstcontact {
 namespace {
 
-/// Whether a joint that mimics this one, or mimics one that does, is elsewhere after a whole turn.
+/// Whether a joint that follows this one, or a follower of such, is elsewhere after a whole turn.
 bool shows_whole_turns(const RobotModel& robot, std::size_t joint) {
   for (std::size_t k = 0; k < robot.joints().size(); ++k) {
     const Joint& follower = robot.joints()[k];
@@ -30,7 +30,7 @@ bool shows_whole_turns(const RobotModel& robot, std::size_t joint) {
   return false;
 }
 
-/// A coordinate that is where it was after a whole turn.
+/// Whether a coordinate is at the same place after a whole turn.
 bool is_endless(const RobotModel& robot, const JointCoordinate& coordinate) {
   const Joint& joint = robot.joints()[coordinate.joint];
   return !joint.mimic && (joint.type == JointType::continuous ||

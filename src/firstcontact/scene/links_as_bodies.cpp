@@ -37,7 +37,7 @@ void require_simulated(const SceneRobot& robot) {
   }
 }
 
-/// About another point, of the same mass.
+/// The moments about another point, for the same mass.
 Matrix3d moved_moments(const Matrix3d& about_C, double mass, const Vector3d& by) {
   return about_C + mass * (by.squaredNorm() * Matrix3d::Identity() - by * by.transpose());
 }
@@ -137,7 +137,7 @@ class Links {
     }
   }
 
-  /// The body that a run has for a geometry; the simulation moves it with its robot.
+  /// The body that a run has for a geometry. The simulation moves it with its robot.
   static FreeBody share_of(const Link& link, const Pose& X_LG, std::size_t geometries) {
     const LinkInertia inertia = link.inertia.value_or(LinkInertia{});
     const Matrix3d R_GL = X_LG.rotation.normalized().toRotationMatrix().transpose();
@@ -227,7 +227,7 @@ class Links {
     }
   }
 
-  /// Ties the first geometry of a link in place of the link.
+  /// Replaces a link at an end of a tie by the link's first geometry.
   void take_end(std::size_t side, Tie& tie) const {
     if (!tie.bodies[side] || *tie.bodies[side] < given_.scene.bodies.size()) {
       return;
@@ -305,7 +305,7 @@ class Links {
 
   const LoadedScene& given_;
   const RobotScene& robots_;
-  std::vector<std::vector<std::size_t>> bodies_of_;  // Of each member of the given scene.
+  std::vector<std::vector<std::size_t>> bodies_of_;  // For each member of the given scene.
   Scene scene_;
   std::vector<LinkGeometryPose> geometries_;
 };

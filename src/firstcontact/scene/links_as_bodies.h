@@ -1,5 +1,5 @@
 /// @file
-/// The links of a scene's robots as bodies of their own: what a simulation moves.
+/// The links of a scene's robots as bodies of their own, for a simulation.
 
 #pragma once
 
@@ -16,24 +16,24 @@ namespace firstcontact {
 
 /// A geometry of a link, in its own frame G.
 struct LinkGeometryPose {
-  std::size_t robot = 0;  ///< Of the scene.
-  std::size_t link = 0;   ///< Of its model.
+  std::size_t robot = 0;  ///< Index of the robot in the scene.
+  std::size_t link = 0;   ///< Index of the link in its model.
   Pose X_LG = {};
 };
 
-/// A scene without robots that has the geometries of their links behind its bodies, in the order
-/// of robots, links and geometries: the link bodies.
+/// A scene without robots, with the geometries of their links as bodies behind its own.
 ///
-/// The first geometry of a link is called "robot/link", the others "robot/link#2" and so on. On a
-/// robot with dynamics it is a free body, with its share of the link's mass; on another one it
-/// rests or has waypoints at every step of the simulation. Pairs that a robot leaves out are
-/// ignored, rules for links hold for all of their geometries, and margins contain the padding.
-/// Pairs are counted by links, as a simulation looks at them (count_simulated_pairs).
+/// These link bodies are in the order of robots, links and geometries. The first geometry of a link
+/// is called "robot/link", the others "robot/link#2" and so on. On a robot with dynamics it is a
+/// free body, with its share of the link's mass. On another robot it rests, or has waypoints at
+/// every step of the simulation. Pairs that a robot leaves out are ignored. Rules for links hold
+/// for all of their geometries, and margins contain the padding. Pairs are counted by links, as a
+/// simulation tests them (count_simulated_pairs).
 struct LinksAsBodies {
   LoadedScene loaded;
-  std::vector<LinkGeometryPose> geometries = {};  ///< Of the bodies behind those of the scene.
+  std::vector<LinkGeometryPose> geometries = {};  ///< Geometries of the link bodies.
   std::vector<RobotModel> models =
-      {};  ///< Of each robot; links have the mass that a density gives.
+      {};  ///< One for each robot; links have the mass that a density gives.
 };
 
 /// Makes the geometries of links bodies of the scene.

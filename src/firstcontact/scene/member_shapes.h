@@ -1,5 +1,5 @@
 /// @file
-/// The shapes of what can touch in a scene, and the poses that loading rounded.
+/// The shapes of the members of a scene, and the poses that loading rounded.
 
 #pragma once
 
@@ -20,15 +20,17 @@ struct MemberShape {
   Pose X_MG = {};
 };
 
-/// The shapes of a member: one of a body, any number of a link.
+/// The shapes of a member: one for a body, any number for a link.
 [[nodiscard]] FIRSTCONTACT_API std::vector<MemberShape> shapes_of_member(const LoadedScene& loaded,
                                                                          std::size_t member);
 
-/// A pose of a body that is rounded to doubles when a link takes the body up or puts it down. It
-/// defines the motion from then on.
+/// A pose of a body that is rounded to doubles when a link takes the body up or puts it down.
+///
+/// It defines the motion from then on.
 struct FrozenPose {
   double t = 0.0;       ///< [-]
-  bool in_link = true;  ///< X_LB, as the link takes it up; else X_WB, where it was put down.
+  bool in_link = true;  ///< Whether the pose is X_LB, as the link takes the body up; else it is
+                        ///< X_WB, where it was put down.
   Pose pose = {};
 };
 

@@ -23,10 +23,10 @@ using Kind = detail::MemberKind;
 constexpr std::size_t kKinds = 4;
 constexpr std::size_t kReasons = 7;
 
-/// The number of pairs that are named.
+/// Number of pairs whose names are kept.
 constexpr std::size_t kNamed = 3;
 
-/// After so many pairs the search for names ends.
+/// Number of pairs after which the search for names ends.
 constexpr std::size_t kLookedAt = 1'000'000;
 
 std::size_t index(Kind kind) { return static_cast<std::size_t>(kind); }
@@ -36,7 +36,7 @@ std::size_t pairs_within(std::size_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
 /// Counts each pair once, under the first reason that holds.
 class PairCounter {
  public:
-  /// @param kinds  of each member
+  /// @param kinds  one for each member
   PairCounter(const LoadedScene& loaded, std::vector<Kind> kinds)
       : loaded_(loaded),
         scene_(loaded.scene),
@@ -65,7 +65,7 @@ class PairCounter {
     return kinds_[member] != Kind::cannot_touch;
   }
 
-  /// Rules by pairs.
+  /// Counts the pair of a rule for pairs.
   void take(const BodyPair& members, WhyUntested why) {
     const BodyPair pair = ordered(members);
     if (pair[0] != pair[1] && can_touch(pair[0]) && can_touch(pair[1]) &&
@@ -103,7 +103,7 @@ class PairCounter {
     }
   }
 
-  /// The pairs of bodies that a link holds from the start to the end.
+  /// Counts the pairs of bodies that a link holds from the start to the end.
   void take_held() {
     const auto attachments =
         loaded_.robots ? loaded_.robots->attachments() : std::span<const Attachment>();
@@ -118,7 +118,7 @@ class PairCounter {
     }
   }
 
-  /// Rules by groups, without the pairs that are counted already.
+  /// Counts the pairs of rules for groups that are not counted yet.
   void take_groups() {
     for (const BodyPair& pair : classes_.ignored()) {
       const std::vector<std::size_t>& a = classes_.members(pair[0]);
@@ -137,7 +137,7 @@ class PairCounter {
     }
   }
 
-  /// Names pairs of two lists of members that are of interest.
+  /// Keeps the names of some wanted pairs of two lists of members.
   template <class IsWanted>
   void name_some(WhyUntested why, const std::vector<std::size_t>& first,
                  const std::vector<std::size_t>& second, const IsWanted& is_wanted) {
@@ -174,7 +174,7 @@ class PairCounter {
     leave_out(WhyUntested::both_rest, resting, resting);
   }
 
-  /// The pairs of two lists that no rule ignores.
+  /// Counts the pairs of two lists that no rule ignores.
   void leave_out(WhyUntested why, const std::vector<std::size_t>& first,
                  const std::vector<std::size_t>& second) {
     if (first.empty() || second.empty()) {
@@ -212,10 +212,10 @@ class PairCounter {
   std::vector<Kind> kinds_;
   MemberClasses classes_;
   std::unordered_set<std::uint64_t> taken_;
-  std::unordered_map<std::uint64_t, std::size_t> already_;            // Of a pair of classes.
-  std::array<std::array<std::size_t, kKinds>, kKinds> ignored_of_{};  // Of two kinds in order.
+  std::unordered_map<std::uint64_t, std::size_t> already_;            // By pair of classes.
+  std::array<std::array<std::size_t, kKinds>, kKinds> ignored_of_{};  // By two kinds, in order.
   std::array<std::size_t, kReasons> counts_{};                        // By reason.
-  std::vector<std::vector<std::array<std::string, 2>>> first_pairs_;  // So too.
+  std::vector<std::vector<std::array<std::string, 2>>> first_pairs_;  // By reason.
 };
 
 bool is_at_rest(const BodyMotion& motion) { return std::holds_alternative<FixedMotion>(motion); }
@@ -228,7 +228,7 @@ Kind kind_of_links(const SceneRobot& robot) {
                                                                        : Kind::rests;
 }
 
-/// Whether a member can touch: links may have no geometry, bodies have some.
+/// Whether a member can touch: a link may have no geometry, a body has some.
 bool has_geometry(const LoadedScene& loaded, std::size_t member) {
   return !loaded.robots || !loaded.robots->geometries(member).empty();
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Samples of the gap, by all processors.
+/// Samples the gap on all processors.
 
 #pragma once
 
@@ -14,8 +14,10 @@ namespace firstcontact {
 
 struct LoadedScene;
 
-/// As sample_gap; distances are the same for every number of processors, proven bounds to their
-/// last digits. A stop leaves samples out.
+/// Samples the gap as sample_gap() does.
+///
+/// Distances are the same for every number of processors, proven bounds up to their last digits. A
+/// stop leaves samples out.
 [[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> sample_in_parallel(
     const LoadedScene& loaded, std::span<const double> times, const std::stop_token& stop = {});
 

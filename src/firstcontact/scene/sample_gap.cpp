@@ -38,7 +38,7 @@ std::vector<Ball> balls_at(const BodySet& bodies, double t) {
   return balls;
 }
 
-/// A little less than the distance of two balls.
+/// A lower bound of the distance of two balls, below it only by rounding.
 double ball_distance(const Ball& a, const Ball& b) {
   const double distance = (a.centre - b.centre).norm();
   return distance - a.radius - b.radius - 1e-12 * (distance + a.centre.norm() + b.centre.norm());

@@ -33,7 +33,7 @@ std::string digest_of(const std::filesystem::path& path) {
   return digest.hexadecimal();
 }
 
-/// The numbers of each kind of shape, but for its file; the overloads are picked by std::visit.
+/// The numbers of each kind of shape, without its file; the overloads are picked by std::visit.
 struct Numbers {
   using List = std::vector<double>;
 
@@ -72,7 +72,7 @@ struct Numbers {
   }
 };
 
-/// As bits, so that NaN is a number like others: no shape of the cache is taken for it.
+/// Numbers as bits, so that NaN is a number like others: no shape of the cache is taken for it.
 std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
   std::vector<std::uint64_t> bits;
   for (const double number : numbers) {
@@ -81,7 +81,7 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
   return bits;
 }
 
-/// Not worth the comparison with what was made before.
+/// Whether a shape is inline, so that comparing it with cached shapes gains nothing.
 bool is_inline(const BodyShape& shape) {
   const auto* hull = std::get_if<ConvexHullShape>(&shape.source);
   return std::holds_alternative<Mesh>(shape.source) ||
@@ -91,7 +91,7 @@ bool is_inline(const BodyShape& shape) {
          (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
 }
 
-/// The digest of a file and of those that were read for it.
+/// The digest of a file and of the files that were read for it.
 std::string digest_of(const std::filesystem::path& path, const std::vector<std::string>& also) {
   if (also.empty()) {
     return digest_of(path);
@@ -117,7 +117,7 @@ CachedShape make(const BodyShape& shape, const ReadingOptions& options) {
   return made;
 }
 
-/// The robot with what can touch as its collision geometry.
+/// Reads a robot with the geometry that can touch as its collision geometry.
 RobotReading read_touching(const RobotFile& file, const ReadingOptions& options) {
   return read_robot(file.urdf, {.package_roots = file.package_roots,
                                 .shapes = LoadShapes::collision,
@@ -161,7 +161,7 @@ CachedShape ShapeCache::load(const BodyShape& shape, const ReadingOptions& optio
   map_lock.unlock();
   const std::scoped_lock lock(entry.making);
   if (!entry.shape) {
-    // Isolated: a thread that waits for parts of a hierarchy must not take up a task that asks for
+    // Isolated: a thread that waits for a part of a hierarchy must not take up a task that needs
     // the same shape.
     tbb::this_task_arena::isolate([&] { entry.shape = make(shape, options); });
   }

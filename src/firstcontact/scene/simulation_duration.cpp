@@ -54,7 +54,7 @@ void set_simulation_duration(Scene& scene, double duration) {
   }
   if (duration > scene.duration) {
     const LongerMotion longer{scene.duration, duration};
-    std::vector<BodyMotion> motions;  // All of them first: one may be refused.
+    std::vector<BodyMotion> motions;  // All of them are made first, as one may be refused.
     for (const Body& body : scene.bodies) {
       motions.push_back(std::visit(longer, body.motion));
     }
@@ -70,7 +70,7 @@ void set_simulation_duration(Scene& scene, double duration) {
 }
 
 std::size_t simulation_step_count(const Simulation& simulation) {
-  constexpr double kRounding = 1e-12;  // [-]  Of a quotient of whole steps, generously.
+  constexpr double kRounding = 1e-12;  // [-]  Above the rounding of a quotient of whole steps.
   constexpr double kMost = 1e8;
   const double count = std::ceil(simulation.duration / simulation.step * (1.0 - kRounding));
   if (!(count <= kMost)) {

@@ -43,7 +43,7 @@ std::optional<JointCoordinate> find_planar(const RobotModel& robot, std::string_
   }
   const std::vector<std::string_view> known(names.begin(), names.end());
   const std::string_view nearest = detail::nearest_word(name, known);
-  // Without the robot's name: that of its URDF may be another one than the scene's.
+  // Without the robot's name, as that of its URDF may differ from the scene's.
   throw std::invalid_argument(
       "expected a joint of the robot, got " + detail::in_quotes(name) + "; " +
       (known.empty()     ? "it has no joint with a coordinate"
@@ -103,7 +103,7 @@ CoordinatePath path_of(const Trajectory& trajectory, std::size_t k, double durat
       column(trajectory, k, &TrajectoryPoint::accelerations, duration * duration), turning);
 }
 
-/// What is known of every coordinate; the joint motions are gathered from it.
+/// Collects the knowledge of every coordinate, and makes joint motions of it.
 class MotionBuilder {
  public:
   MotionBuilder(const RobotModel& robot, const Trajectory& trajectory, const JointPositions& held,
@@ -160,8 +160,8 @@ class MotionBuilder {
     }
   }
 
-  /// [rad or m]  Where the trajectory, or the given positions, put a coordinate at one of the
-  /// points.
+  /// [rad or m]  The position of a coordinate at a point, from the trajectory or the given
+  /// positions.
   [[nodiscard]] double position(std::size_t joint, std::size_t point) const {
     const JointCoordinate which{joint, 0};
     if (const auto column = columns_.find(which); column != columns_.end()) {
@@ -178,7 +178,7 @@ class MotionBuilder {
     return mimic.multiplier * position(*robot_.find_joint(mimic.joint), point) + mimic.offset;
   }
 
-  /// A mimic joint goes where the other one says, and nowhere else.
+  /// Requires that a mimic joint has the positions that follow from the other joint.
   void require_same(std::size_t joint) const {
     constexpr double kSlack = 1e-6;  // [rad or m]  See joint_motions.
     const Joint& what = robot_.joints()[joint];

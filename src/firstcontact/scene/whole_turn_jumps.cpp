@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// Whether the angle may be recorded by whole turns less than it is.
+/// Whether a recording may have an angle less whole turns.
 bool may_wrap(const Joint& joint, const JointCoordinate& coordinate) {
   switch (joint.type) {
     case JointType::continuous:
@@ -61,7 +61,7 @@ class RecordedAngle {
   }
 
   [[nodiscard]] bool within_one_turn() const {
-    constexpr double kSlack = 1e-3;  // [rad]  Of recordings that round, or step over the end.
+    constexpr double kSlack = 1e-3;  // [rad]  Covers recordings that round, or step over the end.
     double least = angle(0);
     double greatest = least;
     for (std::size_t k = 1; k < points_.size(); ++k) {
@@ -71,7 +71,7 @@ class RecordedAngle {
     return greatest - least <= kTurn + kSlack;
   }
 
-  /// [rad/s]  Of the steps that are of half a turn at most.
+  /// [rad/s]  Greatest speed of the steps of at most half a turn.
   [[nodiscard]] double greatest_speed() const {
     double greatest = 0.0;
     for (std::size_t k = 1; k < points_.size(); ++k) {

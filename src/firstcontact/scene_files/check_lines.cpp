@@ -22,7 +22,7 @@
 namespace firstcontact {
 namespace {
 
-/// How many lines each thread may be ahead of the slowest.
+/// Number of lines that each thread may be ahead of the slowest.
 constexpr std::size_t kLead = 64;
 
 class LineChecker {
@@ -30,8 +30,9 @@ class LineChecker {
   LineChecker(const std::filesystem::path& file, const CheckLinesOptions& options)
       : file_(file), options_(options) {}
 
-  /// The answer of a line; none where the stop token may have cut it short. One that runs out of
-  /// memory may do so because of what others need: it is tried once more, alone.
+  /// Answers a line; none where the stop token may have cut it short.
+  ///
+  /// A line may run out of memory because of the needs of others: it is tried once more, alone.
   std::optional<LineAnswer> answer(const SceneLine& line) {
     std::optional<LineAnswer> answer = answer_beside_others(line);
     if (!answer) {
@@ -44,7 +45,7 @@ class LineChecker {
   }
 
  private:
-  /// None where memory ran out.
+  /// Answers a line beside others; none where memory ran out.
   std::optional<LineAnswer> answer_beside_others(const SceneLine& line) {
     const std::shared_lock lock(memory_);
     try {
@@ -70,12 +71,14 @@ class LineChecker {
             .error = error};
   }
 
-  /// What was kept for other lines. While no other thread answers one.
+  /// Drops the memory of other lines, while no other thread answers one.
   void forget() {
     workspaces_.clear();
     cache_.emplace();
   }
 
+  /// Answers a line.
+  ///
   /// @throws std::bad_alloc
   LineAnswer find_answer(const SceneLine& line) {
     LineAnswer answer{.line = line.number, .text = {}, .verdict = {}, .error = {}};
@@ -100,7 +103,7 @@ class LineChecker {
       options_.adjust(scene.options);
     }
     const LoadedScene loaded = load_scene(std::move(scene), *cache_);
-    // One thread for each scene: the others have scenes of their own.
+    // Each scene has one thread; the other threads have scenes of their own.
     const SceneResult result = check_scene(loaded, workspaces_.local(),
                                            {.all_pairs = options_.all_pairs,
                                             .closest = options_.closest,
@@ -117,13 +120,14 @@ class LineChecker {
 
   const std::filesystem::path& file_;
   const CheckLinesOptions& options_;
-  std::shared_mutex memory_;  // Held alone by who needs all of it.
+  std::shared_mutex memory_;  // Held alone by a line that needs all of it.
   std::optional<ShapeCache> cache_ = std::make_optional<ShapeCache>();
   tbb::enumerable_thread_specific<ManyBodiesWorkspace> workspaces_;
 };
 
-/// The first exception of several threads, kept until they are done: oneTBB's pipeline does not
-/// destroy what is under way in it when one of its filters throws.
+/// The first exception of several threads, kept until they are done.
+///
+/// oneTBB's pipeline does not destroy unfinished items when one of its filters throws.
 class FirstException {
  public:
   /// Calls the function; keeps what it throws.
@@ -139,7 +143,7 @@ class FirstException {
     }
   }
   [[nodiscard]] bool thrown() const { return thrown_; }
-  /// After all threads are done.
+  /// Throws the exception, after all threads are done.
   void rethrow() const {
     if (exception_) {
       std::rethrow_exception(exception_);
@@ -179,7 +183,7 @@ void check_lines(const std::filesystem::path& file,
       });
   const auto answer = tbb::make_filter<SceneLine, std::optional<LineAnswer>>(
       tbb::filter_mode::parallel, [&](const SceneLine& line) {
-        // Isolated: a thread that waits for parts of its scene must not begin another one, which
+        // Isolated: a thread that waits for parts of its scene must not begin another scene, which
         // would need the same workspace.
         std::optional<LineAnswer> answered;
         tbb::this_task_arena::isolate(

@@ -74,7 +74,7 @@ class ClaimsReader {
     if (value == nullptr) {
       return "";
     }
-    // A scene that no text was read for has an empty digest.
+    // A scene that came from no text has an empty digest.
     const auto* text = std::get_if<std::string>(&value->value);
     return text != nullptr ? *text : reader_.string(*value, "a string");
   }
@@ -83,7 +83,7 @@ class ClaimsReader {
     return reader_.enumerator<Verdict>(reader_.member(object, "verdict"), kVerdictWords);
   }
 
-  /// How the proof ends is said twice: by the verdict, and by `t_upper` and `reason`.
+  /// Requires that the verdict agrees with `t_upper` and `reason`, which repeat how the proof ends.
   void require_end(const JsonValue& answer, Verdict verdict, double t) const {
     const JsonValue& upper = reader_.member(answer, "t_upper");
     const bool is_later = !is_null(upper) && reader_.number(upper) >= t;

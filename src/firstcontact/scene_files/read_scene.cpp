@@ -82,7 +82,7 @@ BodyMotion read_pose_or_motion(const JsonObject& body, const JsonReader& read) {
   return FixedMotion{pose == nullptr ? Pose{} : detail::read_pose(*pose, read)};
 }
 
-/// The counts of a mesh in a file are compared by load_scene.
+/// Requires as many vertices as move; load_scene() compares the counts of a mesh in a file.
 void require_vertices(const Body& body, const JsonValue& motion, const JsonReader& read) {
   const auto* mesh = std::get_if<Mesh>(&body.shape.source);
   if (mesh == nullptr && !std::holds_alternative<MeshFile>(body.shape.source)) {
@@ -98,7 +98,7 @@ void require_vertices(const Body& body, const JsonValue& motion, const JsonReade
   }
 }
 
-/// A free body has its surface among its dynamics.
+/// Reads dynamics or a surface: a free body has its surface among its dynamics.
 void read_dynamics_or_surface(const JsonObject& object, Body& body, const JsonReader& read) {
   const JsonValue* dynamics = find(object, "dynamics");
   const JsonValue* surface = find(object, "surface");
@@ -150,9 +150,9 @@ std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folder
   return bodies;
 }
 
-/// Which feature pairs are listed: a word, or the greatest number of them.
+/// Reads the choice of listed feature pairs: a word, or their greatest number.
 ContactState read_contacts(const JsonValue& value, const JsonReader& read) {
-  constexpr double kMost = 0x1p53;  // Whole numbers beyond are not told apart.
+  constexpr double kMost = 0x1p53;  // Doubles do not distinguish greater whole numbers.
   if (const auto* number = std::get_if<double>(&value.value)) {
     if (!(*number >= 1.0 && *number <= kMost && *number == std::trunc(*number))) {
       read.fail_expected(R"("none", "first", "all" or a whole number >= 1)", value);
@@ -189,7 +189,10 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   return options;
 }
 
-/// `asked` and `simulated` (how long the simulation takes) may be null.
+/// The duration of a scene.
+///
+/// @param asked      the duration that is given; may be null
+/// @param simulated  the duration of the simulation; may be null
 double scene_duration(const Scene& scene, const JsonValue* asked, const JsonValue* simulated,
                       const JsonReader& read) {
   const double last =
@@ -198,7 +201,7 @@ double scene_duration(const Scene& scene, const JsonValue* asked, const JsonValu
     return last > 0.0 ? last : 1.0;
   }
   const double duration = read.positive(*asked);
-  // A simulation may end before motions that span the scene do.
+  // A simulation may end before the motions that span the scene.
   const bool fits = simulated == nullptr ? duration == last : duration >= last;
   if (last > 0.0 && !fits) {
     read.fail_expected(detail::write_json(last) + (simulated == nullptr ? "" : " or more") +
@@ -211,7 +214,7 @@ double scene_duration(const Scene& scene, const JsonValue* asked, const JsonValu
   return duration;
 }
 
-/// What only the motions themselves know to refuse, such as too many turns.
+/// Makes the motions, which refuse some values themselves, such as too many turns.
 void require_motions(const Scene& scene, const JsonArray& bodies, const JsonReader& read) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     try {
@@ -223,7 +226,7 @@ void require_motions(const Scene& scene, const JsonArray& bodies, const JsonRead
   }
 }
 
-/// What only all times together tell.
+/// Checks that all times fit together.
 void require_times(const Scene& scene, const JsonObject& object, const JsonReader& read) {
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const SceneRobot& robot = scene.robots[i];
@@ -243,7 +246,7 @@ void require_times(const Scene& scene, const JsonObject& object, const JsonReade
   }
 }
 
-/// The bodies and robots; at least one of them.
+/// Reads the bodies and robots; at least one of them.
 void read_members(const JsonValue& root, const JsonObject& object, const SceneFolders& folders,
                   Scene& scene, const JsonReader& read) {
   const JsonValue* robots = find(object, "robots");
@@ -269,8 +272,9 @@ bool has_dynamics(const Scene& scene) {
                              [](const SceneRobot& robot) { return robot.dynamics.has_value(); });
 }
 
-/// What a scene says of its simulation, or the defaults where bodies need one. Returns its duration
-/// where that is given, else null.
+/// Reads the simulation of a scene, or takes the defaults where bodies need one.
+///
+/// It returns the duration where that is given, else null.
 const JsonValue* take_simulation(const JsonObject& object, Scene& scene, const JsonReader& read) {
   if (const JsonValue* simulation = find(object, "simulation")) {
     scene.simulation = detail::read_simulation(*simulation, scene, read);
@@ -282,9 +286,9 @@ const JsonValue* take_simulation(const JsonObject& object, Scene& scene, const J
   return nullptr;
 }
 
-/// What a scene says of all it asks, and of how its files are read.
+/// Reads the options of a scene, and those of reading its files.
 ///
-/// @returns  "options"; null where there are none
+/// @returns "options"; null where there are none
 const JsonObject* take_options(const JsonObject& object, bool lenient, Scene& scene,
                                const JsonReader& read) {
   const JsonValue* options = find(object, "options");

@@ -19,6 +19,8 @@ namespace firstcontact {
 [[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path,
                                                            const ReadingOptions& options = {});
 
+/// Parses the text of a scene to simulate, as read_simulation_scene() reads it.
+///
 /// @param source  names the text in errors; files are looked for from its folder on
 [[nodiscard]] FIRSTCONTACT_API Scene parse_simulation_scene(std::string_view text,
                                                             const std::filesystem::path& source,

@@ -37,7 +37,7 @@ void put(const JointPositions& later, JointPositions& positions) {
   }
 }
 
-/// Puts the files of a question together.
+/// Makes one scene of the files of a question.
 class SceneBuilder {
  public:
   explicit SceneBuilder(const RobotQuestion& question) : question_(question) {}
@@ -49,7 +49,7 @@ class SceneBuilder {
     for (const std::filesystem::path& file : question_.environment) {
       add_environment(file, robot);
     }
-    if (goal_) {  // From where the environment has what nobody else has moved.
+    if (goal_) {  // The goal begins where the environment has the joints that nothing else moves.
       robot.trajectory = straight_motion(robot.model, robot.state, *goal_, turning());
     }
     if (question_.padding > 0.0) {
@@ -80,12 +80,12 @@ class SceneBuilder {
       robot.srdf = question_.srdf;
       const std::string text = text_of(robot.srdf, "an SRDF file");
       robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
-      robot.srdf_digest = detail::sha256(text);  // As a scene has it that names the SRDF.
+      robot.srdf_digest = detail::sha256(text);  // As in a scene that names the SRDF.
     }
     return robot;
   }
 
-  /// The text goes into the digest, too.
+  /// Reads a text, which goes into the digest, too.
   std::string text_of(const std::filesystem::path& path, const std::string& what) {
     std::string text = detail::read_file(path, what);
     texts_ += detail::sha256(text) + '\n';
@@ -152,7 +152,7 @@ class SceneBuilder {
   /// The way of motions between states.
   [[nodiscard]] Turning turning() const { return question_.turning.value_or(Turning::shortest); }
 
-  /// What the texts say of joints that move; a warning names the others.
+  /// The positions that the texts give for joints that move; a warning names the others.
   JointPositions moving(const std::vector<std::string>& texts, const std::string& what,
                         const SceneRobot& robot) {
     detail::GivenPositions given = detail::positions_of(texts, what, robot);
@@ -195,7 +195,7 @@ class SceneBuilder {
     }
   }
 
-  /// Objects may be placed by the frame of the root link.
+  /// Requires a base at the origin, as objects may be placed by the frame of the root link.
   static void require_base_at_origin(const SceneRobot& robot, const std::filesystem::path& file) {
     const Pose& base = std::get<FixedMotion>(robot.base).pose;
     if (!base.position.isZero(0.0) || !base.rotation.vec().isZero(0.0)) {
@@ -235,7 +235,7 @@ class SceneBuilder {
     scene_.bodies.push_back(std::move(body));
   }
 
-  /// Its bodies, with their rules and options.
+  /// Adds the bodies of a scene, with their rules and options.
   void add_scene(Scene around, const std::filesystem::path& file) {
     if (!around.robots.empty()) {
       throw ParseError(file.string(), "expected an environment without robots, got " +
@@ -303,7 +303,8 @@ class SceneBuilder {
     return *found;
   }
 
-  /// What one link holds is not tested against each other, as its parts may touch.
+  /// Adds an attached object. Objects of one link are not tested against each other, as they may
+  /// touch.
   void add_attached(AttachedObject object, SceneRobot& robot) {
     const std::string place = "attached object " + in_quotes(object.id);
     const std::size_t link = link_of(robot, object.link, place);
@@ -328,7 +329,7 @@ class SceneBuilder {
     }
   }
 
-  /// What the planning scenes allow to touch: of links, and of objects that links hold, with all.
+  /// Allows the pairs that planning scenes allow: of links, and of held objects with all members.
   void allow_pairs() {
     if (allowed_.empty()) {
       return;
@@ -384,11 +385,12 @@ class SceneBuilder {
   std::string robot_name_;
   std::string texts_;
   std::vector<AllowedCollisions> allowed_;
-  std::map<std::size_t, std::string> ids_;  // Of bodies that are parts of planning scenes.
+  std::map<std::size_t, std::string> ids_;  // Ids of bodies that come from planning scenes.
   std::filesystem::path around_;
-  std::optional<JointPositions> goal_;  // Of a straight motion.
+  std::optional<JointPositions> goal_;  // Goal of a straight motion.
   std::optional<double> around_duration_;
-  bool states_duration_ = false;  // Else what moves there does so over whatever duration.
+  bool states_duration_ = false;  // Whether a duration is stated; else the motions span any
+                                  // duration.
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace firstcontact {
 namespace detail {
 namespace {
 
-/// Only what there is of it.
+/// Writes a report; parts without contents are left out.
 JsonValue report_json(const FileReport& report) {
   JsonArray contents;
   for (const FileContent& content : report.contents) {

@@ -1,5 +1,5 @@
 /// @file
-/// Writes what became of files, and which pairs were looked at, as JSON.
+/// Writes reports on files, and counts of the tested pairs, as JSON.
 
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace firstcontact {
 
-/// An array, as "files" of a result.
+/// Writes reports as an array, as "files" of a result.
 [[nodiscard]] FIRSTCONTACT_API std::string write_file_reports(std::span<const FileReport> reports);
 
-/// An object, as "pair_counts" of a result.
+/// Writes counts as an object, as "pair_counts" of a result.
 [[nodiscard]] FIRSTCONTACT_API std::string write_pair_counts(const PairCounts& counts);
 
 }  // namespace firstcontact

@@ -89,8 +89,8 @@ class ResultWriter {
     object.push_back({"time", seconds(outcome.t)});
   }
 
-  /// Only where a tolerance is not the one that was asked for, and where curved shapes were
-  /// enclosed by triangles.
+  /// Appends tolerances that differ from those asked for, and the errors of triangles around curved
+  /// shapes.
   void append_tolerances(const Outcome& outcome, JsonObject& object) const {
     if (outcome.tolerance_used > scene_.options.tolerance) {
       object.push_back({"tolerance_used", to_json(outcome.tolerance_used)});
@@ -159,7 +159,7 @@ class ResultWriter {
     }
   }
 
-  /// The contacts of every pair that touches at the scene's t.
+  /// Appends the contacts of every pair that touches at the scene's t.
   void append_contacts_at(const SceneResult& result, JsonObject& object) const {
     ContactArray array = no_contacts();
     ContactCount count{0, true};

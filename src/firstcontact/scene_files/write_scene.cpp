@@ -93,7 +93,7 @@ JsonValue numbers(double radius, double length, const std::optional<double>& enc
   return {.value = std::move(object)};
 }
 
-/// The keys and values that say what a body is made of; the overloads are picked by std::visit.
+/// The keys and values of a body's shape; the overloads are picked by std::visit.
 struct ShapeMembers {
   double radius;
   Filling filling;
@@ -148,8 +148,11 @@ struct ShapeMembers {
     return {{"ellipsoid", {.value = std::move(object)}}};
   }
 
-  /// A ready shape that is a primitive, with the error for which as many triangles are made: that
-  /// of half a corner less, of a polygon around a circle or of a globe's meridian.
+  /// Writes a ready shape that is a primitive, with the enclosure error that makes as many
+  /// triangles.
+  ///
+  /// That is the error for half a corner less, of a polygon around a circle or of a globe's
+  /// meridian.
   [[nodiscard]] JsonObject curved(const ConvexCore& core, double triangles) const {
     constexpr double kPi = std::numbers::pi;
     const double length = 2.0 * core.size.z();
@@ -224,7 +227,7 @@ JsonValue to_json(const BodyShape& shape) {
                               shape.source)};
 }
 
-/// The key and value that say how a body moves; the overloads are picked by std::visit.
+/// The key and value of a body's motion; the overloads are picked by std::visit.
 struct MotionMember {
   static JsonMember member(const char* type, JsonObject numbers) {
     numbers.insert(numbers.begin(), {"type", to_json(type)});

@@ -1,5 +1,5 @@
 /// @file
-/// Keeps the account of a file in the scene that it was read for.
+/// Adds the report on a file to the scene that it was read for.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace firstcontact::detail {
 /// A file or a warning that the scene has already counts once.
 void add_report(const FileReport& report, LoadedScene& scene);
 
-/// Adds those of the scene's text.
+/// Adds the reports on the scene's text.
 void add_reports(const std::vector<FileReport>& reports, LoadedScene& scene);
 
 }  // namespace firstcontact::detail

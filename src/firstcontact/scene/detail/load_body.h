@@ -16,11 +16,11 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Loads the shape of a body and normalises its motion; one whose vertices move deforms.
+/// Loads the shape of a body and normalises its motion; a body whose vertices move deforms.
 ///
-/// @param scene    Has the duration and how files are read.
-/// @param digests  Takes the digest of what was read.
-/// @param loaded   Takes the account of a file.
+/// @param scene    has the duration and the options of reading
+/// @param digests  receives the digest of the file
+/// @param loaded   receives the report on the file
 /// @throws ParseError if a file cannot be used, or has another number of vertices than move
 DeformingBody load_body(const Body& body, const Scene& scene, ShapeCache& cache,
                         std::string& digests, LoadedScene& loaded);

@@ -22,7 +22,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A robot that is only checked has to have something that can touch.
+/// Requires that a robot that is only checked has geometry that can touch.
 ///
 /// @throws ParseError
 void require_geometry(const SceneRobot& robot, const RobotModel& model) {

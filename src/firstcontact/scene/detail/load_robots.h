@@ -8,7 +8,7 @@
 
 namespace firstcontact::detail {
 
-/// By members.
+/// The rules for pairs of a scene, by members.
 [[nodiscard]] PairRules rules_of(const Scene& scene);
 
 /// Loads the meshes of bodies and robots, sets their motions, and reports what is unusual.

@@ -48,7 +48,7 @@ MeshReading read_scaled(const MeshFile& file, const ReadingOptions& options) {
   return reading;
 }
 
-/// A shape of each kind; the overloads are picked by std::visit.
+/// Makes a shape of each kind; the overloads are picked by std::visit.
 struct ShapeMaker {
   double radius;
   Filling filling;

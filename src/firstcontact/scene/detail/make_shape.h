@@ -8,10 +8,10 @@
 
 namespace firstcontact::detail {
 
-/// Reads the file that the shape names, if any.
+/// Makes a shape; reads the file that it names, if any.
 ///
-/// @throws ParseError if the file cannot be used; std::invalid_argument if a number is out of its
-///         range, or a solid not closed
+/// @throws ParseError if the file cannot be used
+/// @throws std::invalid_argument if a number is out of its range, or a solid not closed
 [[nodiscard]] ShapeReading make_shape(const BodyShape& shape, const ReadingOptions& options = {});
 
 /// The file that a shape is in; null where it is in none.

@@ -1,5 +1,5 @@
 /// @file
-/// Members of a scene by how they move and by the groups that they are in.
+/// Classes of members of a scene: by their motion and the groups that they are in.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// How a member moves, as far as that decides whether its pairs are looked at.
+/// The motion of a member, as far as it determines whether its pairs are tested.
 enum class MemberKind : std::uint8_t { moved, scripted, rests, cannot_touch };
 
 /// The same two members, the smaller number first.
@@ -21,17 +21,17 @@ enum class MemberKind : std::uint8_t { moved, scripted, rests, cannot_touch };
   return {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
 }
 
-/// One number for a pair in order.
+/// A number for an ordered pair.
 [[nodiscard]] inline std::uint64_t code(const BodyPair& pair) {
   return static_cast<std::uint64_t>(pair[0]) << 32 | static_cast<std::uint64_t>(pair[1]);
 }
 
-/// Members of one kind that are in the same groups, and for which rules for groups are the same.
+/// Classes of members: those of one kind that are in the same groups with rules.
 ///
-/// So pairs are counted without looking at each.
+/// With them pairs are counted without looking at each.
 class MemberClasses {
  public:
-  /// @param kinds  of each member
+  /// @param kinds  one for each member
   MemberClasses(const Scene& scene, const std::vector<MemberKind>& kinds);
 
   /// Whether a rule for groups ignores the pair.
@@ -39,7 +39,7 @@ class MemberClasses {
     return !ignored_.empty() && ignored_.contains(class_pair(members));
   }
 
-  /// One number for the two classes of two members.
+  /// A number for the two classes of two members.
   [[nodiscard]] std::uint64_t class_pair(const BodyPair& members) const {
     return code(ordered({class_of_[members[0]], class_of_[members[1]]}));
   }
@@ -52,7 +52,7 @@ class MemberClasses {
   }
 
  private:
-  std::vector<std::size_t> class_of_;  // Of each member.
+  std::vector<std::size_t> class_of_;  // For each member.
   std::vector<std::vector<std::size_t>> classes_;
   std::unordered_set<std::uint64_t> ignored_;  // By code().
 };

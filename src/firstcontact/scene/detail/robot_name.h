@@ -14,16 +14,17 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// The name of a joint or link, and the robot whose it is.
+/// The name of a joint or link, and its robot.
 struct RobotName {
-  std::size_t which = 0;  ///< Of the robots that were asked about.
-  std::string name;       ///< In that robot.
+  std::size_t which = 0;  ///< Index among the given robots.
+  std::string name;       ///< Name in that robot.
 };
 
-/// Takes a name apart: that of a joint or link where there is one robot, else ROBOT/NAME.
+/// Splits a name: that of a joint or link where there is one robot, else ROBOT/NAME.
 ///
 /// @param robots  of the scene; at least one
-/// @throws std::invalid_argument  names what begins with none of the robots' names, or with two
+/// @throws std::invalid_argument  names a text that begins with none of the robots' names, or with
+///         two
 [[nodiscard]] RobotName split_robot_name(const Scene& scene, std::span<const std::size_t> robots,
                                          std::string_view name);
 

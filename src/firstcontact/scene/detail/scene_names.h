@@ -15,11 +15,11 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// A body or link, a robot or a group.
+/// The thing that a name means: a body or link, a robot or a group.
 struct Named {
   enum class Kind { member, robot, group };
   Kind kind = Kind::member;
-  std::size_t index = 0;  ///< Of the member, robot or group.
+  std::size_t index = 0;  ///< Index of the member, robot or group.
 };
 
 using SceneNames = std::map<std::string, Named, std::less<>>;
@@ -28,7 +28,7 @@ using SceneNames = std::map<std::string, Named, std::less<>>;
 
 [[nodiscard]] std::vector<std::size_t> members_of(const Scene& scene, const Named& named);
 
-/// "; did you mean "x"?", or nothing.
+/// Suggests a known name: "; did you mean "x"?", or nothing.
 [[nodiscard]] std::string hint(const SceneNames& names, std::string_view unknown);
 
 }  // namespace firstcontact::detail

@@ -26,17 +26,17 @@ namespace {
 
 constexpr double kImplausible = 1000.0;     // [m]
 constexpr double kImplausibleLink = 100.0;  // [m]
-constexpr double kSuspicious = 100.0;       // [m]  Of a mesh beside what is much smaller.
+constexpr double kSuspicious = 100.0;       // [m]  Size of a mesh beside much smaller bodies.
 constexpr double kMuchSmaller = 0.01;       // [-]
 
 double diameter(const Shape& shape) { return 2.0 * (shape.hierarchy().radius + shape.radius()); }
 
-/// A body or robot, and how large it is.
+/// A body or robot, and its size.
 struct Sized {
   std::string name;      ///< 'body "post"'
   double size = 0.0;     ///< [m]
-  bool is_mesh = false;  ///< Its coordinates are not said in a unit.
-  bool in_file = false;  ///< So too, and a scale can be said.
+  bool is_mesh = false;  ///< Whether it is a mesh, whose coordinates state no unit.
+  bool in_file = false;  ///< Whether it is also in a file, so that a scale can be given.
 };
 
 Sized size_of_body(const LoadedScene& loaded, std::size_t index) {
@@ -56,7 +56,7 @@ Eigen::Vector3d at(const Pose& X_AB, const Eigen::Vector3d& p_BP) {
   return X_AB.position + X_AB.rotation.normalized() * p_BP;
 }
 
-/// By the balls around its geometries, where the step begins.
+/// The size of a robot by the balls around its geometries, at the start of the step.
 Sized size_of_robot(const LoadedScene& loaded, std::size_t robot) {
   const RobotScene& members = *loaded.robots;
   const std::size_t first = members.first_member(robot);
@@ -74,7 +74,7 @@ Sized size_of_robot(const LoadedScene& loaded, std::size_t robot) {
           .size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff()};
 }
 
-/// "6000", "1.2e+07"
+/// A factor as text: "6000", "1.2e+07".
 std::string times(double ratio) {
   return ratio < 1e6 ? std::to_string(static_cast<long long>(ratio)) : rounded(ratio, 2);
 }
@@ -84,7 +84,7 @@ std::string offer() {
          "on the command line, scale=0.001 in Python)";
 }
 
-/// What is there beside a body.
+/// The warning about a body, with its neighbour in size.
 std::string warning(const Sized& body, const Sized* next_smaller) {
   std::string text = body.name + " is " + quantity(body.size, "m") + " across";
   if (next_smaller != nullptr) {
@@ -110,8 +110,10 @@ void warn_of_links(const LoadedScene& loaded, std::vector<std::string>& warnings
   }
 }
 
-/// The largest of those that are much smaller than the next larger one, which is suspicious; null
-/// where there is none. Sorted by size.
+/// The largest body that is much smaller than the next larger one, which is suspicious; null where
+/// there is none.
+///
+/// @param by_size  sorted by size
 const Sized* largest_of_usual(const std::vector<Sized>& by_size) {
   for (std::size_t k = 0; k + 1 < by_size.size(); ++k) {
     const Sized& larger = by_size[k + 1];

@@ -20,10 +20,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The shapes of all members where the step begins.
+/// The shapes of all members at the start of the step.
 struct Placed {
   std::vector<ShapeAtStart> shapes;
-  std::vector<std::size_t> members;  ///< Of each shape.
+  std::vector<std::size_t> members;  ///< The member of each shape.
 };
 
 Placed place(const LoadedScene& loaded) {
@@ -76,7 +76,7 @@ std::string warning(const Scene& scene, const std::vector<std::size_t>& inside,
 
 void warn_of_begins_inside(LoadedScene& loaded, ShapeCache& cache) {
   const Placed placed = place(loaded);
-  // Each once: geometries of one link may have the same ones inside.
+  // Each appears once: geometries of one link may have the same ones inside.
   std::map<std::size_t, std::set<std::size_t>> inside_of;
   for (const BeginsInside& found : find_begins_inside(placed.shapes)) {
     const std::size_t around = placed.members[found.around];

@@ -1,5 +1,5 @@
 /// @file
-/// Warnings of what looks wrong where a scene begins.
+/// Warnings of bodies that begin at an unlikely place.
 
 #pragma once
 
@@ -10,8 +10,9 @@ struct LoadedScene;
 
 namespace firstcontact::detail {
 
-/// Warns of tested bodies and links that begin inside of a closed mesh that is a surface, as only
-/// its triangles can touch.
+/// Warns of tested bodies and links that begin inside of a closed mesh that is a surface.
+///
+/// Only the triangles of such a mesh can touch.
 ///
 /// @param cache  of the scene's shapes; remembers which of them are closed
 void warn_of_begins_inside(LoadedScene& loaded, ShapeCache& cache);

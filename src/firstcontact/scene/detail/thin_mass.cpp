@@ -35,8 +35,9 @@ double measure(const std::vector<Vector3d>& simplex) {
   }
 }
 
-/// The integral of x x^T over a simplex of n corners and of mass m: m / (n (n + 1)) times the sum
-/// of v v^T over the corners v, and over their sum.
+/// The integral of x x^T over a simplex of n corners and of mass m.
+///
+/// It is m / (n (n + 1)) times the sum of v v^T over the corners v, and over their sum.
 Matrix3d second_moment(const std::vector<Vector3d>& simplex, const Vector3d& origin, double mass) {
   const auto n = static_cast<double>(simplex.size());
   Matrix3d moment = Matrix3d::Zero();
@@ -67,7 +68,7 @@ ThinMass thin_mass(const Mesh& mesh) {
     most = std::max(most, simplices.back().size());
   }
   std::erase_if(simplices, [most](const auto& simplex) { return simplex.size() < most; });
-  // From a point of the mesh, so that far from the origin nothing is lost.
+  // The origin is a point of the mesh, so that far from the world's origin no digits are lost.
   const Vector3d origin = simplices.front().front();
   ThinMass result;
   Vector3d first = Vector3d::Zero();

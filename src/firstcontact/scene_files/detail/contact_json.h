@@ -1,6 +1,7 @@
 /// @file
-/// Contacts as JSON. There may be very many, so that they are written as text at once: values of a
-/// tree take ten times the memory.
+/// Contacts as JSON, written as text at once.
+///
+/// There may be very many, and values of a tree take ten times the memory.
 
 #pragma once
 
@@ -15,7 +16,7 @@ namespace firstcontact::detail {
 class ContactArray {
  public:
   /// @param duration    [s]  of the step; velocities are written in m/s
-  /// @param geometries  also which geometries of the members touch
+  /// @param geometries  also writes which geometries of the members touch
   ContactArray(double duration, bool geometries) : duration_(duration), geometries_(geometries) {}
 
   /// Sets the names of the pair whose contacts are added next.
@@ -25,7 +26,7 @@ class ContactArray {
 
   void add(const Contact& contact);
 
-  /// All of it. Nothing may be added afterwards.
+  /// Returns the array. Nothing may be added afterwards.
   [[nodiscard]] JsonValue take();
 
  private:
@@ -35,7 +36,7 @@ class ContactArray {
   std::string text_;
 };
 
-/// Adds how many contacts there are, those included that are not listed.
+/// Adds the number of contacts, those included that are not listed.
 void append_contact_count(const ContactCount& count, JsonObject& object);
 
 }  // namespace firstcontact::detail

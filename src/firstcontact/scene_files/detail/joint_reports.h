@@ -1,5 +1,5 @@
 /// @file
-/// Writes how the joints of a scene's robots move: their turns and the limits that they leave.
+/// Writes reports on the joints of a scene's robots: their turns and the limits that they leave.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace firstcontact::detail {
 
-/// Adds "turns", where continuous joints turn, and "limits". Nothing for a scene without robots.
+/// Adds "turns", where continuous joints turn, and "limits"; nothing for a scene without robots.
 void append_joint_reports(const LoadedScene& loaded, JsonObject& object);
 
 }  // namespace firstcontact::detail

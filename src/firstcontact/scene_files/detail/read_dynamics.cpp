@@ -13,7 +13,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Printed numbers that are nearer than this to symmetric, or to a flat body, are meant so.
+/// [-]  Printed numbers that are nearer than this to symmetric, or to a flat body, count as such.
 constexpr double kPrinted = 1e-9;  // [-]
 
 Eigen::Matrix3d read_matrix3(const JsonValue& value, const JsonReader& read) {
@@ -28,7 +28,7 @@ Eigen::Matrix3d read_matrix3(const JsonValue& value, const JsonReader& read) {
   return matrix;
 }
 
-/// What some distribution of mass can have.
+/// Reads an inertia that some distribution of mass has.
 Eigen::Matrix3d read_inertia(const JsonValue& value, const JsonReader& read) {
   const Eigen::Matrix3d given = read_matrix3(value, read);
   const double size = given.cwiseAbs().maxCoeff();
@@ -106,7 +106,8 @@ void read_mass(const JsonObject& object, FreeBody& body, const JsonReader& read)
   }
 }
 
-/// Motions turn by 1e8 rad at most, and steps are hardly longer than a second.
+/// Reads an angular velocity. Motions turn by 1e8 rad at most, and steps are about a second at
+/// most.
 Eigen::Vector3d read_angular_velocity(const JsonValue& value, const JsonReader& read) {
   constexpr double kLargest = 1e8;
   Eigen::Vector3d velocity = read.vector3(value);

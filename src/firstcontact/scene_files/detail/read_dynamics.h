@@ -1,5 +1,5 @@
 /// @file
-/// Reads what a body needs to move under forces.
+/// Reads the dynamics of a body: the properties that it needs to move under forces.
 
 #pragma once
 
@@ -12,17 +12,17 @@ struct Body;
 
 namespace firstcontact::detail {
 
-/// `dynamics` of a body without a motion: its `free` and `surface`.
+/// Reads `dynamics` of a body without a motion: its `free` and `surface`.
 ///
 /// @throws ParseError
 void read_dynamics(const JsonValue& value, Body& body, const JsonReader& read);
 
-/// `friction` and `restitution`, where they are there.
+/// Reads `friction` and `restitution`, where they are given.
 ///
 /// @throws ParseError
 [[nodiscard]] Surface read_surface(const JsonObject& object, const JsonReader& read);
 
-/// A number in [0, 1].
+/// Reads a number in [0, 1].
 ///
 /// @throws ParseError
 [[nodiscard]] double read_restitution(const JsonValue& value, const JsonReader& read);

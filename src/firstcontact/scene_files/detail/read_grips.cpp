@@ -106,7 +106,7 @@ class GripsReader {
     return *found;
   }
 
-  /// Within the limits of the joint, and of those that mimic it.
+  /// Reads a position within the limits of the joint, and of those that mimic it.
   double position(std::size_t number, const JsonValue& value) const {
     const double position = read_.number(value);
     const std::span<const Joint> joints = robot_.model.joints();
@@ -128,7 +128,7 @@ class GripsReader {
     return position;
   }
 
-  /// Where a joint is that is another one, or mimics it.
+  /// The position of a joint that is the leader, or mimics it; none for others.
   [[nodiscard]] std::optional<double> led_to(const Joint& joint, const Joint& leader,
                                              double position) const {
     if (joint.name == leader.name) {

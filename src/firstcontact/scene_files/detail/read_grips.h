@@ -1,5 +1,5 @@
 /// @file
-/// "grips" of a haptic tool: joints of a robot that values of a device move.
+/// Reads "grips" of a haptic tool: joints of a robot that values of a device move.
 
 #pragma once
 
@@ -15,10 +15,12 @@ struct SceneRobot;
 
 namespace firstcontact::detail {
 
-/// [buttons]  A device has at most so many.
+/// [buttons]  Most buttons of a device.
 inline constexpr std::size_t kButtonsOfDevice = 32;
 
-/// @param robot  that has the joints
+/// Reads the grips of a tool.
+///
+/// @param robot  the robot with the joints
 /// @throws ParseError  a joint that the robot lacks, that is fixed, has no single coordinate,
 ///         follows another or stands twice; positions out of its limits; too many grips
 [[nodiscard]] std::vector<HapticGripQuestion> read_grips(const JsonValue& value,

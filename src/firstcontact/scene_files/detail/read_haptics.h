@@ -1,5 +1,5 @@
 /// @file
-/// Reads what a user feels of a scene.
+/// Reads the haptics of a scene.
 
 #pragma once
 

@@ -17,7 +17,7 @@ Pose read_optional_pose(const JsonObject& object, std::string_view key, const Js
   return value == nullptr ? Pose{} : read_pose(*value, read);
 }
 
-/// The keys of a motion's two forms exclude each other.
+/// Refuses keys of both forms of a motion, which exclude each other.
 void refuse_mixed_forms(const JsonObject& object, const std::vector<std::string_view>& rates,
                         const JsonReader& read) {
   for (const std::string_view key : rates) {

@@ -1,5 +1,5 @@
 /// @file
-/// Reads how a body moves.
+/// Reads the motion of a body.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace firstcontact::detail {
 
-/// `type` (fixed, constant_velocity, screw, waypoints) and the numbers of that motion.
+/// Reads `type` (fixed, constant_velocity, screw, waypoints) and the numbers of that motion.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyMotion read_motion(const JsonValue& value, const JsonReader& read);

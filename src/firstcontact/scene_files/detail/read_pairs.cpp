@@ -74,7 +74,7 @@ class PairsReader {
   }
 
  private:
-  /// A margin of the scene. What is said of a link prevails over what is said of its robot.
+  /// A margin of the scene. The margin of a link prevails over that of its robot.
   struct Own {
     std::size_t index;
     int exactness;
@@ -127,7 +127,7 @@ class PairsReader {
     return what;
   }
 
-  /// The first two of `size` elements.
+  /// Reads the first two of `size` elements.
   std::pair<Named, Named> sides(const JsonValue& value, std::size_t size,
                                 const std::string& expected) const {
     const JsonArray& elements = read_.array(value, expected);
@@ -144,7 +144,7 @@ class PairsReader {
     return {first, second};
   }
 
-  /// A group or robot beside another name stands for the pairs of all its members.
+  /// The pairs of two names: a group or robot stands for all its members.
   [[nodiscard]] std::vector<BodyPair> pairs_of(const Named& first, const Named& second) const {
     std::vector<BodyPair> pairs;
     std::set<BodyPair> seen;

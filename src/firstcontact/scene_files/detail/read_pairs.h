@@ -1,5 +1,5 @@
 /// @file
-/// Reads which pairs of bodies are tested, and with what margins.
+/// Reads the rules for pairs of bodies: which are tested, and with what margins.
 
 #pragma once
 

@@ -146,7 +146,7 @@ class PlanReader {
     }
   }
 
-  /// A body or a link: who may be in contact is named exactly.
+  /// Reads a body or a link: members that may be in contact are named exactly.
   std::size_t member_named(const JsonValue& value, const SceneNames& names) const {
     const std::string what =
         scene_.robots.empty() ? "the name of a body" : "the name of a body, or robot/link";
@@ -260,7 +260,7 @@ class PlanReader {
     }
   }
 
-  /// Positions of joints are numbers; the name of a link is a string.
+  /// Whether a goal names a link: positions of joints are numbers, the name of a link is a string.
   static bool is_link_goal(const JsonValue& value) {
     const auto* object = std::get_if<JsonObject>(&value.value);
     const JsonValue* link = object == nullptr ? nullptr : find(*object, "link");
@@ -306,7 +306,7 @@ class PlanReader {
     }
   }
 
-  /// A name within one of the robots, as the question calls it.
+  /// A name within one of the robots, in the form of the question.
   std::string full_name(const PlanQuestion& plan, std::size_t which,
                         const std::string& name) const {
     return plan.robots.size() == 1 ? name : scene_.robots[plan.robots[which]].name + "/" + name;
@@ -324,7 +324,7 @@ class PlanReader {
     }
   }
 
-  /// A state of the SRDF by its name, coordinates by theirs, or an array of both.
+  /// Reads a state of the SRDF by its name, coordinates by theirs, or an array of both.
   JointPositions state(const JsonValue& value, const PlanQuestion& plan) const {
     JointPositions positions;
     add_state(value, plan, positions);

@@ -1,5 +1,5 @@
 /// @file
-/// Reads what a planner is asked of a scene.
+/// Reads the question of a scene to a planner.
 
 #pragma once
 

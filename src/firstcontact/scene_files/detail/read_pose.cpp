@@ -21,7 +21,7 @@ Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& rea
   Eigen::Quaterniond q(read.number(elements[0]), read.number(elements[1]), read.number(elements[2]),
                        read.number(elements[3]));
   const double largest = q.coeffs().cwiseAbs().maxCoeff();
-  // What a motion can normalise exactly.
+  // The range in which a motion can normalise exactly.
   if (!(largest >= 1e-60 && largest <= 1e60)) {
     read.fail(value, "expected " + expected + ", its length in 1e-60 ... 1e60");
   }

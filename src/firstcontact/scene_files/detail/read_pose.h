@@ -8,9 +8,10 @@
 
 namespace firstcontact::detail {
 
-/// `position` with one of `quaternion_wxyz`, `rpy`, `rotation_vector`; or `matrix` alone. What is
-/// left out is the identity. A quaternion is kept as written, the other forms are converted to
-/// one in double precision.
+/// Reads `position` with one of `quaternion_wxyz`, `rpy`, `rotation_vector`; or `matrix` alone.
+///
+/// A missing part is the identity. A quaternion is kept as written. The other forms are converted
+/// to one in double precision.
 ///
 /// @throws ParseError
 [[nodiscard]] Pose read_pose(const JsonValue& value, const JsonReader& read);

@@ -21,7 +21,7 @@ namespace {
 /// Stands for every joint that could have a motor and is not named.
 constexpr std::string_view kOthers = "*";
 
-/// Moves by itself, along one coordinate.
+/// Whether a joint moves by itself, along one coordinate.
 bool can_have_motor(const Joint& joint) {
   return coordinate_count(joint.type) == 1 && !joint.mimic;
 }
@@ -156,7 +156,7 @@ class MotorReader {
   const JsonReader& read_;
 };
 
-/// Refuses what is no coordinate of a robot, or follows another one.
+/// Refuses a name that is no coordinate of a robot, or follows another one.
 void require_own_coordinate(const SceneRobot& robot, const std::string& name,
                             const JsonValue& value, const JsonReader& read) {
   try {

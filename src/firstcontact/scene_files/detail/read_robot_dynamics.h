@@ -1,5 +1,5 @@
 /// @file
-/// Reads what moves a robot in a simulation.
+/// Reads the dynamics of a robot in a simulation.
 
 #pragma once
 
@@ -12,6 +12,8 @@ struct SceneRobot;
 
 namespace firstcontact::detail {
 
+/// Reads the dynamics of a robot.
+///
 /// @param robot  with its model and its trajectory
 /// @throws ParseError
 [[nodiscard]] RobotDynamics read_robot_dynamics(const JsonValue& value, const SceneRobot& robot,

@@ -157,7 +157,7 @@ class RobotReader {
     }
   }
 
-  /// A state of the SRDF by its name, coordinates by theirs, or an array of both.
+  /// Reads a state of the SRDF by its name, coordinates by theirs, or an array of both.
   void take_state(const JsonValue& value, SceneRobot& robot) const {
     if (const auto* array = std::get_if<JsonArray>(&value.value)) {
       for (const JsonValue& element : *array) {
@@ -298,13 +298,13 @@ class RobotReader {
     return errors;
   }
 
-  /// A joint that moves by itself.
+  /// Finds a joint that moves by itself.
   std::size_t moving_joint(const JsonValue& value, std::string_view name,
                            const RobotModel& model) const {
     const auto found = model.find_joint(name);
     if (!found) {
       try {
-        (void)find_coordinate(model, name);  // Knows what is near.
+        (void)find_coordinate(model, name);  // It reports the nearest name.
       } catch (const std::invalid_argument& error) {
         read_.fail(value, error.what());
       }
@@ -327,7 +327,7 @@ bool is_taken(const Scene& scene, const std::string& name) {
          std::any_of(scene.robots.begin(), scene.robots.end(), has_name);
 }
 
-/// Links are called robot/link, as a body or another robot may be.
+/// Refuses links whose name "robot/link" a body or another robot has.
 void require_new_links(const SceneRobot& robot, const Scene& scene, const JsonValue& name,
                        const JsonReader& read) {
   for (const Link& link : robot.model.links()) {

@@ -18,6 +18,8 @@
 namespace firstcontact::detail {
 namespace {
 
+/// Reads vectors.
+///
 /// @param many  "vertices", and `one` of them "vertex"
 std::vector<Eigen::Vector3d> read_vectors(const JsonValue& value, const std::string& many,
                                           const std::string& one, const JsonReader& read) {
@@ -62,7 +64,7 @@ class ShapeReader {
   ShapeReader(const SceneFolders& folders, const JsonReader& read)
       : folders_(folders), read_(read) {}
 
-  /// A kind of shape: the key that names it, what may stand beside that, and how it is read.
+  /// A kind of shape: the key that names it, the keys beside that, and its reader.
   struct Kind {
     std::string_view key;
     std::vector<std::string_view> beside;
@@ -233,7 +235,7 @@ class ShapeReader {
     return result;
   }
 
-  /// A length that a primitive can have.
+  /// Reads a length that a primitive can have.
   [[nodiscard]] double size(const JsonValue& value) const {
     const double length = read_.positive(value);
     if (!(length >= kLeastSize && length <= kGreatestSize)) {

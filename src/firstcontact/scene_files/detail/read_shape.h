@@ -1,5 +1,5 @@
 /// @file
-/// Reads what a body is made of.
+/// Reads the shape of a body.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Reads how a scene is simulated.
+/// Reads the settings of a simulation.
 
 #pragma once
 
@@ -12,8 +12,9 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Reads "simulation" of a scene that has its bodies, robots and groups. Where it says no duration
-/// that is left at its default.
+/// Reads "simulation" of a scene that has its bodies, robots and groups.
+///
+/// A duration that is not given stays at its default.
 ///
 /// @throws ParseError
 [[nodiscard]] Simulation read_simulation(const JsonValue& value, const Scene& scene,

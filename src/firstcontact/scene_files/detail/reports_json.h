@@ -11,8 +11,10 @@
 
 namespace firstcontact::detail {
 
+/// Makes a JSON array of the reports on files.
 [[nodiscard]] JsonValue reports_json(std::span<const FileReport> reports);
 
+/// Makes a JSON object of the counts of pairs.
 [[nodiscard]] JsonValue pair_counts_json(const PairCounts& counts);
 
 }  // namespace firstcontact::detail

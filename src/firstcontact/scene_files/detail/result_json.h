@@ -1,5 +1,5 @@
 /// @file
-/// The values of a result as JSON; what is infinite or undefined is null.
+/// The values of a result as JSON; an infinite or undefined number is null.
 
 #pragma once
 

@@ -8,8 +8,10 @@
 
 namespace firstcontact::detail {
 
-/// Reads the file; one whose ending is of a mesh, a cloud, a robot or a trajectory is refused by
-/// what to do with it instead.
+/// Reads the text of a scene file.
+///
+/// A file whose ending is that of a mesh, a cloud, a robot or a trajectory is refused, with the use
+/// that it has instead.
 ///
 /// @throws ParseError
 [[nodiscard]] std::string scene_text(const std::filesystem::path& path);

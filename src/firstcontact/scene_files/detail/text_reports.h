@@ -1,5 +1,5 @@
 /// @file
-/// Reports on files of text that a scene is put together of.
+/// Reports on the text files that make up a scene.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace firstcontact::detail {
 
 /// The report on a scene or planning scene whose bodies another scene takes.
 ///
-/// @param bodies  how many
+/// @param bodies  their number
 [[nodiscard]] FileReport surroundings_report(const std::filesystem::path& file, const char* format,
                                              std::size_t bodies);
 

@@ -13,12 +13,16 @@ struct SceneRobot;
 
 namespace firstcontact::detail {
 
-/// `dynamics` of a free body, `surface` of another one that has any.
+/// Adds `dynamics` of a free body, or `surface` of another body that has one.
 void add_dynamics(const Body& body, JsonObject& object);
 
+/// Writes the dynamics of a robot.
+///
 /// @param robot  has dynamics
 [[nodiscard]] JsonValue robot_dynamics_to_json(const SceneRobot& robot);
 
+/// Writes the settings of a simulation.
+///
 /// @param scene  has a simulation
 [[nodiscard]] JsonValue simulation_to_json(const Scene& scene);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Positions that files give for joints which the robot has fixed.
+/// Positions in files for joints that the robot has fixed.
 
 #pragma once
 
@@ -22,8 +22,9 @@ namespace firstcontact::detail {
 [[nodiscard]] JointPositions without_fixed_joints(const RobotModel& robot,
                                                   JointPositions positions);
 
-/// One warning for all joints of one place: "2 fixed joints are given a position: a, b; ...". Empty
-/// where there are none.
+/// The warning about all joints of one place: "2 fixed joints are given a position: a, b; ...".
+///
+/// It is empty where there are none.
 ///
 /// @param names  of the joints, each once or more
 [[nodiscard]] std::string fixed_joints_warning(std::vector<std::string> names);

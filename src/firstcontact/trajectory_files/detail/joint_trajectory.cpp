@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kWrappers = {"joint_trajectory", "trajectory",
                                                        "planned_trajectory", "goal"};
 
-/// A part that would move what this reader does not know must not be passed over.
+/// Refuses a key with a motion that this reader does not know, as it must not be passed over.
 void refuse_other_motion(const JsonObject& object, const JsonReader& read) {
   const JsonValue* multi = find(object, "multi_dof_joint_trajectory");
   const auto* message = multi == nullptr ? nullptr : std::get_if<JsonObject>(&multi->value);
@@ -32,7 +32,7 @@ void refuse_other_motion(const JsonObject& object, const JsonReader& read) {
   }
 }
 
-/// The trajectory inside of messages that hold one.
+/// Finds the trajectory inside of messages that hold one.
 const JsonValue& unwrap(const JsonValue& value, const JsonReader& read) {
   if (const auto* array = std::get_if<JsonArray>(&value.value)) {
     if (array->size() != 1) {
@@ -80,7 +80,7 @@ std::vector<std::string> read_names(const JsonValue& value, const RobotModel& ro
   return names;
 }
 
-/// Seconds and nanoseconds, as the nearest double.
+/// Reads seconds and nanoseconds, as the nearest double.
 double read_duration(const JsonObject& object, const JsonValue& value, std::string_view seconds,
                      std::string_view nanoseconds, const JsonReader& read) {
   constexpr double kNano = 1e9;
@@ -95,7 +95,7 @@ double read_duration(const JsonObject& object, const JsonValue& value, std::stri
   if (find(object, seconds) == nullptr && find(object, nanoseconds) == nullptr) {
     read.fail(value, "expected \"secs\" and \"nsecs\", or \"sec\" and \"nanosec\", got neither");
   }
-  // Both integers are below 2^31, so that their sum in nanoseconds may round; the quotient is
+  // Both integers are below 2^31, so their sum in nanoseconds may be rounded. The quotient is
   // within two roundings of the exact time.
   return (integer(seconds, 2147483648.0) * kNano + integer(nanoseconds, kNano)) / kNano;
 }
@@ -121,7 +121,7 @@ double read_time(const JsonValue& point, const JsonReader& read) {
              : read_duration(*duration, *from_start, "sec", "nanosec", read);
 }
 
-/// As many numbers as joints; of those that may be left out also none.
+/// Reads as many numbers as there are joints; none where optional numbers are left out.
 std::vector<double> read_numbers(const JsonObject& point, std::string_view key, std::size_t joints,
                                  const JsonReader& read) {
   const JsonValue* value = find(point, key);
@@ -158,7 +158,7 @@ TrajectoryPoint read_point(const JsonValue& value, std::size_t joints, const Jso
   return point;
 }
 
-/// What all points have or none has decides how the joints move between them.
+/// Requires that all points have the same numbers, as these determine the motion between them.
 void require_alike(const TrajectoryPoint& point, const TrajectoryPoint& first,
                    const JsonValue& value, const JsonReader& read) {
   const auto compare = [&](const char* key, bool here, bool before) {

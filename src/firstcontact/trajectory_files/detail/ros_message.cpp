@@ -17,7 +17,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Numbers in a list, or by the names x, y, z, w.
+/// Reads numbers in a list, or by the names x, y, z, w.
 template <std::size_t N>
 std::array<double, N> read_components(const JsonValue& value, const JsonReader& read) {
   constexpr std::array<std::string_view, 4> kNames = {"x", "y", "z", "w"};
@@ -41,14 +41,14 @@ std::array<double, N> read_components(const JsonValue& value, const JsonReader& 
   return numbers;
 }
 
-/// None where all of it is zero.
+/// Reads a quaternion; none where it is all zeros.
 std::optional<Eigen::Quaterniond> read_quaternion(const JsonValue& value, const JsonReader& read) {
   const std::array<double, 4> q = read_components<4>(value, read);
   if (q == std::array<double, 4>{}) {
     return std::nullopt;
   }
   Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-  // Further off is a mistake, such as w in the first place of a list.
+  // A greater error is a mistake, such as w in the first place of a list.
   constexpr double kSlack = 1e-2;
   if (!(std::abs(rotation.norm() - 1.0) <= kSlack)) {
     read.fail(value, "expected a quaternion x, y, z, w of length 1, got one of length " +

@@ -1,5 +1,5 @@
 /// @file
-/// Reads the parts that ROS messages share, from trees of YAML or JSON.
+/// Reads the elements that ROS messages share, from trees of YAML or JSON.
 
 #pragma once
 
@@ -15,63 +15,66 @@
 
 namespace firstcontact::detail {
 
-/// The message itself, where another one holds it under one of the keys.
+/// The message itself, also where another message holds it under one of the keys.
 ///
 /// @param own  a key of the message itself
 [[nodiscard]] const JsonValue& unwrap_message(const JsonValue& root,
                                               const std::vector<std::string_view>& keys,
                                               std::string_view own);
 
-/// The value of a key where it is there and filled: not null, no empty list.
+/// The value of a key where it has contents: not null, no empty list.
 [[nodiscard]] const JsonValue* find_filled(const JsonValue& object, std::string_view key);
 
-/// [x, y, z] or {x: , y: , z: }.
+/// Reads [x, y, z] or {x: , y: , z: }.
 [[nodiscard]] Eigen::Vector3d read_point(const JsonValue& value, const JsonReader& read);
 
-/// A pose as messages have it.
+/// A pose from a message.
 struct MessagePose {
   Pose pose;
-  /// Its quaternion was never set: all zeros, which MoveIt takes as the identity, and so does this.
+  /// Whether its quaternion is all zeros, as nothing set it. MoveIt and this reader take the
+  /// identity.
   bool has_zero_quaternion = false;
 };
 
-/// geometry_msgs/Pose: `position` and `orientation` (x, y, z, w), each the identity by default; or
-/// Transform: `translation` and `rotation`.
+/// Reads geometry_msgs/Pose or Transform; parts left out are the identity.
+///
+/// A Pose has `position` and `orientation` (x, y, z, w), a Transform `translation` and `rotation`.
 [[nodiscard]] MessagePose read_message_pose(const JsonValue& value, const JsonReader& read);
 
-/// X_AC = X_AB X_BC in double precision; exact where either is the identity.
+/// Composes X_AC = X_AB X_BC in double precision; exact where either is the identity.
 [[nodiscard]] Pose compose(const Pose& X_AB, const Pose& X_BC);
 
-/// One warning for all poses of a file with a quaternion of zeros.
+/// The warning about all poses of a file with a quaternion of zeros.
 ///
-/// @param of  what has such a pose, each once or more; at least one
+/// @param of  names of things with such a pose, each once or more; at least one
 [[nodiscard]] std::string zero_quaternion_warning(const std::string& source,
                                                   const std::vector<std::string>& of);
 
-/// Positions of a message, and the fixed joints that it names as well.
+/// Positions of a message, and the fixed joints that it names, too.
 struct MessageState {
   JointPositions positions;
   std::vector<std::string> fixed;
 };
 
-/// A joint of a message, and where it is.
+/// A joint of a message, and its position.
 struct NamedPosition {
   const JsonValue& name;
   const JsonValue& position;
 };
 
-/// sensor_msgs/JointState: its `name` and `position`, which are as many; none where it names none.
-/// Other keys than it has are refused.
+/// Reads sensor_msgs/JointState: its `name` and `position`, which have equal lengths.
+///
+/// The result is empty where it names no joint. Other keys than those of the message are refused.
 [[nodiscard]] std::vector<NamedPosition> named_positions(const JsonValue& value,
                                                          const JsonReader& read);
 
-/// Puts the position of a joint to the others.
+/// Adds the position of a joint to the others.
 ///
 /// @throws ParseError if the robot does not have the joint, or its position is there already
 void add_position(const JsonValue& joint, const JsonValue& position, const RobotModel& robot,
                   const JsonReader& read, MessageState& state);
 
-/// sensor_msgs/JointState of the robot, as named_positions() reads it.
+/// Reads sensor_msgs/JointState of the robot, as named_positions() does.
 [[nodiscard]] MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
                                             const JsonReader& read);
 

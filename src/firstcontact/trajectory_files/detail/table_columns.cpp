@@ -19,7 +19,7 @@ using Kind = TableColumn::Kind;
   throw std::invalid_argument("column " + in_quotes(column) + ": " + why);
 }
 
-/// A name, and the unit behind it in brackets; none where it has none.
+/// A name, and the unit in brackets behind it; none where it has none.
 struct NameAndUnit {
   std::string_view name;
   std::string_view unit;
@@ -45,8 +45,9 @@ bool is_joint(const RobotModel& robot, std::string_view name) {
   return names_fixed_joint(robot, name) || known_coordinate(robot, name);
 }
 
-/// The joint that a name ends with, behind the topic of a message: its last word, or the last two
-/// of a planar joint.
+/// The joint at the end of a name, behind the topic of a message.
+///
+/// It is the last word, or the last two for a planar joint.
 std::optional<std::string_view> joint_after_topic(const RobotModel& robot, std::string_view name) {
   if (is_joint(robot, name)) {
     return name;
@@ -62,7 +63,7 @@ std::optional<std::string_view> joint_after_topic(const RobotModel& robot, std::
   return std::nullopt;
 }
 
-/// What a name says of its column.
+/// The meaning of a name for its column.
 struct Meaning {
   Kind kind = Kind::numbers;
   Numbers numbers = &TrajectoryPoint::positions;
@@ -110,7 +111,7 @@ bool is_angle(const RobotModel& robot, const JointCoordinate& coordinate) {
   return type == JointType::planar ? coordinate.index == 2 : type != JointType::prismatic;
 }
 
-/// How a file may write the unit of a number of a joint, by the order of its derivative.
+/// The spellings of the unit of a joint's number in files, by the order of its derivative.
 std::array<std::string, 3> units_of(bool turns, int order) {
   const std::string length = turns ? "rad" : "m";
   return order == 0   ? std::array{length, length, length}
@@ -118,16 +119,16 @@ std::array<std::string, 3> units_of(bool turns, int order) {
                       : std::array{length + "/s^2", length + "/s2", length + "/s²"};
 }
 
-/// Numbers of a joint that turns are in rad, of one that slides in m; per second, or its square.
+/// Requires rad for joints that turn and m for those that slide; per second, or its square.
 ///
-/// @param name   of the joint
-/// @param order  of the derivative
+/// @param name   name of the joint
+/// @param order  order of the derivative
 void require_unit(std::string_view column, std::string_view name, std::string_view unit, int order,
                   const RobotModel& robot) {
   constexpr std::array kNumbers = {"positions", "velocities", "accelerations"};
   const std::optional<JointCoordinate> coordinate = known_coordinate(robot, name);
   if (!coordinate) {
-    return;  // It is fixed: its numbers move nothing.
+    return;  // The joint is fixed, and its numbers move nothing.
   }
   const bool turns = is_angle(robot, *coordinate);
   const std::array<std::string, 3> units = units_of(turns, order);
@@ -170,7 +171,7 @@ Meaning meaning_of(std::string_view column, const RobotModel& robot) {
     }
     return *meaning;
   }
-  return {.joint = std::string(column)};  // The robot says what it has.
+  return {.joint = std::string(column)};  // The message of the robot lists its joints.
 }
 
 bool is_unnamed(std::string_view name) { return name.empty() || name == "Unnamed: 0"; }

@@ -12,7 +12,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Where the field that begins the text ends: at a separator that is not in quotes.
+/// The end of the first field of the text: a separator that is not in quotes.
 std::size_t end_of_field(std::string_view text, char separator) {
   const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
   std::size_t from = 0;
@@ -30,7 +30,7 @@ std::string without_quotes(std::string_view field) {
   return std::string(quoted ? trimmed(field.substr(1, field.size() - 2)) : field);
 }
 
-/// The fields, if one of them is the time.
+/// The header of a line, if one of its fields is the time.
 std::optional<TableHeader> header_of(std::string_view text, std::size_t line,
                                      std::optional<char> separator,
                                      const std::function<bool(std::string_view)>& is_time) {
@@ -46,7 +46,7 @@ std::optional<TableHeader> header_of(std::string_view text, std::size_t line,
   return std::nullopt;
 }
 
-/// Without the sign of a comment before it.
+/// The text without the sign of a comment before it.
 std::string_view uncommented(std::string_view text) {
   text = trimmed(text);
   return trimmed(text.substr(std::min(text.find_first_not_of("#%"), text.size())));

@@ -1,5 +1,5 @@
 /// @file
-/// Puts the points that a reader finds together to a trajectory.
+/// Makes a trajectory of the points that a reader finds.
 
 #pragma once
 
@@ -18,17 +18,19 @@ namespace firstcontact::detail {
 /// Takes points in order of their times. A point that stands twice is taken once.
 class TrajectoryPoints {
  public:
-  /// @param joint_names  of the numbers of every point; fixed joints among them
+  /// @param joint_names  names for the numbers of every point; fixed joints among them
   explicit TrajectoryPoints(std::vector<std::string> joint_names);
 
-  /// @throws std::invalid_argument  what is wrong with its time: it is before the time of the last
+  /// Adds a point.
+  ///
+  /// @throws std::invalid_argument  names the defect of its time: it is before the time of the last
   ///         point, or the two contradict each other
   void add(TrajectoryPoint point);
 
   [[nodiscard]] bool empty() const { return trajectory_.points.empty(); }
   [[nodiscard]] const TrajectoryPoint& first() const { return trajectory_.points.front(); }
 
-  /// The trajectory of the joints that move, with a warning for what was left out.
+  /// The trajectory of the joints that move, with a warning for columns that were left out.
   ///
   /// @param source  names the file in warnings
   /// @throws std::invalid_argument if a fixed joint moves, or no other is left

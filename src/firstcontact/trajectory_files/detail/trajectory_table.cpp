@@ -21,7 +21,7 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-/// As much of a line as an error shows, cut between characters.
+/// The part of a line that an error shows, cut between characters.
 std::string_view beginning(std::string_view line) {
   std::size_t size = std::min<std::size_t>(line.size(), 60);
   while (size > 0 && size < line.size() &&
@@ -99,7 +99,7 @@ class TableReader {
           "expected times in seconds and columns named after joints, got what rostopic echo -p "
           "writes; write a header of \"time\" and the joints, and divide the times by 1e9");
     }
-    if (header->fields.back().empty()) {  // Lines that end with a separator.
+    if (header->fields.back().empty()) {  // Lines end with a separator.
       header->fields.pop_back();
     }
     try {
@@ -155,7 +155,7 @@ class TableReader {
 
   double read_number(const std::string& field, const TableColumn& column,
                      TableNumbers& numbers) const {
-    constexpr double kLargest = 1e8;  // Of a CoordinatePath.
+    constexpr double kLargest = 1e8;  // The limit of a CoordinatePath.
     const std::optional<char> mark = numbers.mark();
     const std::optional<double> number = numbers.read(field);
     const auto refuse = [&](const std::string& expected) {
@@ -195,7 +195,7 @@ class TableReader {
   const RobotModel& robot_;
   std::vector<TableLine> lines_;
   std::size_t line_ = 1;  // For errors.
-  std::size_t rows_ = 0;  // Taken so far.
+  std::size_t rows_ = 0;  // Number of rows taken so far.
   char separator_ = ',';
   TableColumns columns_;
 };

@@ -14,10 +14,12 @@ class RobotModel;
 
 namespace firstcontact::detail {
 
-/// A header of `time` and joint names, as table_columns knows them, then one line of numbers for
-/// each point. Columns are separated by commas, semicolons, tabs or blanks, as the header has them;
-/// beside all but commas, numbers may have decimal commas. Comments, empty lines and a separator at
-/// the end of a line are passed over.
+/// Reads a header of `time` and joint names (table_columns()), then a line of numbers for each
+/// point.
+///
+/// Commas, semicolons, tabs or blanks separate columns, as in the header. With any separator but
+/// commas, numbers may have decimal commas. Comments, empty lines and a separator at the end of a
+/// line are passed over.
 ///
 /// @throws ParseError
 [[nodiscard]] Trajectory read_trajectory_table(std::string_view text, const std::string& source,
