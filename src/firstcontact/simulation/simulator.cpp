@@ -55,6 +55,8 @@ void require_simulation(const LoadedScene& loaded) {
   }
 }
 
+/// Refuses a command with a defect.
+///
 /// @throws std::invalid_argument unless nothing is wrong
 void require_right(const char* call, const std::string& wrong) {
   if (!wrong.empty()) {
@@ -129,7 +131,7 @@ class Simulator::Implementation {
     require_apart("set_state", states, [body](std::size_t b) { return b == body; });
     require_tied("set_state", states);
     state_.states = std::move(states);
-    state_.rests.assign(state_.states.size(), false);  // What it held may fall.
+    state_.rests.assign(state_.states.size(), false);  // A body that it held may fall.
   }
 
   const std::vector<MechanismState>& robot_states() const { return state_.robots; }
@@ -185,13 +187,13 @@ class Simulator::Implementation {
                                           .to = std::numeric_limits<double>::infinity(),
                                           .force = force,
                                           .torque = about_C});
-    state_.rests[body] = false;  // Wakes all that it touches.
+    state_.rests[body] = false;  // Wakes all bodies that it touches.
   }
 
   void set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor) {
     detail::JointLaw& law = law_of("set_motor", robot, joint);
     require_right("set_motor", wrong_motor(motor));
-    // A new law: nothing of what led the motor before stays.
+    // A new law: nothing of the former motor's target stays.
     law = detail::JointLaw{.position = law.position,
                            .velocity = law.velocity,
                            .limits = law.limits,
@@ -331,11 +333,10 @@ class Simulator::Implementation {
                                 std::string(joint) + '"');
   }
 
-  /// What was held may move.
+  /// Wakes all bodies: a body that was held may move.
   void wake() { state_.rests.assign(state_.states.size(), false); }
 
-  /// A body that came to rest under a force that ends is not at rest: it is looked at again, by a
-  /// run that is resumed here, too.
+  /// Wakes bodies that came to rest under a force that ends, also for a run that is resumed here.
   void end_forces(RunStep& done) {
     for (const std::size_t b : applied_) {
       state_.rests[b] = false;
@@ -344,7 +345,7 @@ class Simulator::Implementation {
     forget_forces();
   }
 
-  /// Takes away the forces that are for the next step alone.
+  /// Removes the forces that are for the next step alone.
   void forget_forces() {
     for (const std::size_t b : applied_) {
       model_.bodies[b].forces.pop_back();
@@ -359,7 +360,7 @@ class Simulator::Implementation {
     }
   }
 
-  /// Of a step of a run of this scene.
+  /// The states of the robots in a step of a run of this scene.
   [[nodiscard]] std::vector<MechanismState> robots_of(const RunStep& step) const {
     std::vector<MechanismState> robots;
     for (std::size_t k = 0; k < model_.robots.size() && k < step.robots.size(); ++k) {
@@ -383,7 +384,7 @@ class Simulator::Implementation {
     return robots;
   }
 
-  /// Puts the link bodies where their joints have them.
+  /// Moves the link bodies to the places of their joints.
   void follow_robots(std::vector<RigidState>& states) const {
     std::vector<std::size_t> pieces;
     for (std::size_t b = 0; b < states.size(); ++b) {
@@ -403,9 +404,9 @@ class Simulator::Implementation {
         model_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
   }
 
-  /// Throws std::invalid_argument where a pair meets with a body that `concerns` says yes to.
+  /// Throws std::invalid_argument where a pair meets of which `concerns` is true for a body.
   ///
-  /// @param call  that moves bodies there; empty: they start there
+  /// @param call  the call that moves bodies there; empty: they start there
   void require_apart(const std::string& call, const std::vector<RigidState>& states,
                      const std::function<bool(std::size_t)>& concerns) {
     if (const auto pair = detail::find_meeting(model_, states, concerns, threads_->workspace())) {

@@ -22,11 +22,11 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A part of a step in which scripts are straight, or of such a part.
+/// A part of a step in which scripts are straight, or a part of such.
 struct Part {
   double length = 0.0;  // [s]
   bool is_whole = true;
-  bool is_rest = false;  // Behind one that ends where scripts begin to crush.
+  bool is_rest = false;  // Whether it follows a part that ended where scripts begin to crush.
 
   [[nodiscard]] bool can_end_at(double time) const {
     return is_whole && time > kLostOfStep * length && time < length;
@@ -66,7 +66,7 @@ class StepAdvance {
   }
 
  private:
-  /// Returns false if it was stopped.
+  /// Adds a part. Returns false if it was stopped.
   bool add(Part& part) {
     std::optional<RunStep> done = advance(part);
     if (!done) {
@@ -86,7 +86,7 @@ class StepAdvance {
     return std::move(whole_);
   }
 
-  /// Until nothing is crushed that could be spared.
+  /// Advances a part until nothing is crushed that could be spared.
   std::optional<RunStep> advance(Part& part) {
     StepStart start{.time = state_.time,
                     .states = state_.states,
@@ -109,11 +109,12 @@ class StepAdvance {
     }
   }
 
-  /// Makes a part shorter, or lets bodies wait in it, where they would crush something. Returns
-  /// whether there was any.
+  /// Shortens a part, or lets bodies wait in it, where they would crush something.
+  ///
+  /// It returns whether there was any.
   bool spare(const std::vector<IslandTrack>& tracks, const StepStart& start, Part& part) {
     std::vector<std::size_t> crushing;
-    double crushed = start.h;  // [s]  Until then nothing is.
+    double crushed = start.h;  // [s]  Until then nothing is crushed.
     for (const IslandTrack& track : tracks) {
       if (!track.crushing.empty()) {
         std::ranges::copy(track.crushing, std::back_inserter(crushing));
@@ -129,7 +130,7 @@ class StepAdvance {
 
   /// Whether the script of each body stood still at the end of the step before.
   ///
-  /// @param all  they stand still now
+  /// @param all  whether they stand still now
   [[nodiscard]] std::vector<bool> waited(bool all) const {
     std::vector<bool> waited;
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
@@ -140,7 +141,8 @@ class StepAdvance {
     return waited;
   }
 
-  /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
+  /// The manifold points of the step before, as its record has them, so that resumed runs go on
+  /// alike.
   [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
     const auto surface = [this](std::size_t body, const Feature& feature) {
       return model_.neighbours[body]->surface_index(feature);
@@ -163,11 +165,11 @@ class StepAdvance {
   const SimulationModel& model_;
   const Script& script_;
   bool may_wait_;
-  double left_;  // [s]  Of the step.
+  double left_;  // [s]  Time left of the step.
   IslandThreads& threads_;
   const std::stop_token& stop_;
   SimulationState& state_;
-  std::vector<bool> waits_;  // Of each body: it waits in the rest of the step.
+  std::vector<bool> waits_;  // For each body whether it waits in the rest of the step.
   std::optional<RunStep> whole_ = {};
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// A step of a simulation, with what its scripts do where they would crush something.
+/// A step of a simulation, with scripts that wait where they would crush something.
 
 #pragma once
 
@@ -21,11 +21,12 @@ struct SimulationState;
 
 /// Advances a simulation by a step, or as far as could be proven.
 ///
-/// It is taken in parts in which scripted bodies move straight. Where they would crush what cannot
-/// yield and may wait (JamRule), they go as far as they can, and wait in the rest of the step.
+/// The step is taken in parts in which scripted bodies move straight. A script may crush a body
+/// that cannot yield. If it may wait (JamRule), it goes as far as it can, and waits in the rest of
+/// the step.
 ///
-/// @param state  is advanced. Where the step was stopped it is left halfway.
-/// @returns  nothing if it was stopped
+/// @param state  is advanced; left halfway where the step was stopped
+/// @returns nothing if it was stopped
 [[nodiscard]] std::optional<RunStep> advance_step(const SimulationModel& model,
                                                   const Script& script, const Simulation& settings,
                                                   IslandThreads& threads,

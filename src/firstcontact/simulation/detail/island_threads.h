@@ -12,7 +12,7 @@
 
 namespace firstcontact::detail {
 
-/// Threads, and memory of each that its questions share.
+/// Threads, and a workspace of each that its queries share.
 class IslandThreads {
  public:
   /// @param threads  at most; 0 for one on each core
@@ -21,7 +21,8 @@ class IslandThreads {
   /// Memory for the calling thread.
   [[nodiscard]] Workspace& workspace() { return workspaces_.local(); }
 
-  /// Calls use(k, workspace) for each k below count. What it does must not depend on the order.
+  /// Calls use(k, workspace) for each k below count. The result of `use` must not depend on the
+  /// order.
   template <class Use>
   void for_each(std::size_t count, const Use& use) {
     if (count < 2 || threads_ == 1) {

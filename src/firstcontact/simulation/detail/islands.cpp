@@ -81,7 +81,7 @@ class Islands {
     return model_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
   }
 
-  /// Boxes are widened by half of what any pair may have to keep apart.
+  /// A box widened by half of the distance that any pair may have to keep.
   [[nodiscard]] AlignedBox3d widened(const AlignedBox3d& box, double by) const {
     const Vector3d slack = Vector3d::Constant(0.5 * (by + model_.laws.greatest_margin()));
     return {box.min() - slack, box.max() + slack};
@@ -109,8 +109,9 @@ class Islands {
     }
   }
 
-  /// Those that are near each other, and those that would meet if nothing else were in their way:
-  /// most that will be found to meet, so that few islands are advanced twice.
+  /// Joins bodies that are near each other, and those that would meet without obstacles.
+  ///
+  /// Most bodies that will meet are among them, so that few islands are advanced twice.
   void join_near() {
     std::vector<Move> moves;
     std::vector<AlignedBox3d> boxes;
@@ -129,7 +130,7 @@ class Islands {
     }
   }
 
-  /// As the body moves over the step by itself. Links rest: their joints lead them.
+  /// The move of the body over the step by inertia. Links rest: their joints lead them.
   [[nodiscard]] Move inertial_move(std::size_t b) const {
     const RigidState& state = start_.states[b];
     if (model_.bodies[b].link_body || start_.rests[b]) {
@@ -147,7 +148,7 @@ class Islands {
     return box_of(a).intersects(box_of(b));
   }
 
-  /// Whether a plane tells that the hulls do not meet on their ways.
+  /// Whether a plane proves that the hulls do not meet on their ways.
   [[nodiscard]] bool pass_by(std::size_t a, const Move& move_a, std::size_t b,
                              const Move& move_b) const {
     const SweptHull A(model_.bodies[a], start_.states[a].X_WB, move_a);
@@ -189,7 +190,8 @@ class Islands {
     return std::ranges::all_of(awake, [&](std::size_t s) { return tracks_[s].has_value(); });
   }
 
-  /// Robots without geometry touch nothing: each moves by itself. Returns false if it was stopped.
+  /// Advances robots without geometry, which touch nothing, each by itself. Returns false if it was
+  /// stopped.
   bool advance_bare_robots() {
     std::vector<bool> has_link_bodies(model_.robots.size(), false);
     for (const SimBody& body : model_.bodies) {
@@ -209,7 +211,7 @@ class Islands {
     return true;
   }
 
-  /// The index in its island's track.
+  /// The pieces of a body in its island's track.
   [[nodiscard]] const std::vector<TrackPiece>& pieces_of(std::size_t body) {
     const IslandTrack& track = *tracks_[set_of(body)];
     const auto found = std::ranges::lower_bound(track.members, body);
@@ -224,7 +226,7 @@ class Islands {
     return box;
   }
 
-  /// Over the whole step; at rest after what the island reached.
+  /// The motion of a body over the whole step; it rests after the end of its island's track.
   [[nodiscard]] Motion motion_over_step(std::size_t body) {
     std::vector<ConstantRatePiece> pieces;
     Pose last = start_.states[body].X_WB;
@@ -256,8 +258,9 @@ class Islands {
                .verdict != Verdict::free;
   }
 
-  /// Joins islands of which the new motions meet, or all those of which the ways do if one meets
-  /// another. Returns whether there were any.
+  /// Joins islands whose new motions meet; `with_ways` also those whose ways meet if any two meet.
+  ///
+  /// It returns whether there were any.
   bool join_meeting(bool with_ways) {
     std::vector<AlignedBox3d> boxes;
     for (const std::size_t b : free_) {
@@ -298,11 +301,11 @@ class Islands {
   Obstacles around_;
   StepContext step_;
   IslandThreads& threads_;
-  DisjointSets sets_;  // Of bodies; an island is named after its least member.
+  DisjointSets sets_;  // Sets of bodies; an island is named after its least member.
   std::vector<std::size_t> free_;
-  std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
-  std::vector<bool> is_new_;                        // Of each set.
-  std::vector<IslandTrack> bare_ = {};              // Of robots without geometry.
+  std::vector<std::optional<IslandTrack>> tracks_;  // Track of each set, at its name.
+  std::vector<bool> is_new_;                        // For each set.
+  std::vector<IslandTrack> bare_ = {};              // Tracks of robots without geometry.
 };
 
 }  // namespace

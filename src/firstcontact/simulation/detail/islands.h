@@ -1,5 +1,5 @@
 /// @file
-/// A step of all bodies: islands that advance apart from each other, joined where they meet.
+/// A step of all bodies: islands advance separately, and are joined where they meet.
 
 #pragma once
 
@@ -17,12 +17,12 @@ class IslandThreads;
 struct StepStart;
 struct SimulationModel;
 
-/// Advances every free body. Two islands of which the motions found bring bodies of both into
-/// contact were one: they are joined and advanced anew, until no two meet.
+/// Advances every free body.
 ///
-/// Islands advance side by side; what each does is the same on any thread.
+/// Islands advance side by side; the result of each is the same on any thread. Where motions bring
+/// bodies of two islands into contact, the two are joined and advanced anew, until no two meet.
 ///
-/// @returns  nothing if it was stopped
+/// @returns nothing if it was stopped
 [[nodiscard]] std::optional<std::vector<IslandTrack>> advance_islands(
     const SimulationModel& model, const StepStart& start, const std::vector<ManifoldPoint>& guesses,
     IslandThreads& threads, const std::stop_token& stop);

@@ -26,8 +26,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Poses are rounded where a piece begins, and a cut piece has rounded rates: the exact motion that
-/// was proven free and the recorded one differ by less than this part of the sizes involved.
+/// [-]  Most by which the exact motion that was proven free and the recorded one differ, by the
+/// sizes involved. Poses are rounded at the begin of a piece, and a cut piece has rounded rates.
 constexpr double kRounding = 0x1p-46;
 
 /// The order of contacts in a step.
@@ -39,6 +39,8 @@ bool is_listed_before(const RunContact& x, const RunContact& y) {
   return key(x) < key(y);
 }
 
+/// The contacts to record: for a pair with many, only those with an impulse.
+///
 /// @param contacts  sorted
 std::vector<RunContact> without_idle(const std::vector<RunContact>& contacts) {
   std::vector<RunContact> kept;
@@ -54,10 +56,10 @@ std::vector<RunContact> without_idle(const std::vector<RunContact>& contacts) {
   return kept;
 }
 
-/// Moves a simulation to where a step ends, and records how it got there.
+/// Moves a simulation to the end of a step, and records its way.
 class StepRecorder {
  public:
-  /// @param lasted  [s]  when the step ends, since it began
+  /// @param lasted  [s]  duration of the step
   StepRecorder(const SimulationModel& model, const StepStart& start, double lasted,
                SimulationState& state)
       : model_(model), start_(start), lasted_(lasted), state_(state) {}
@@ -67,7 +69,7 @@ class StepRecorder {
                  .time = state_.time + lasted_,
                  .lasted = lasted_,
                  .time_lost = start_.h - lasted_};
-    // Islands hold what is near at this distance, whether there is any or not.
+    // Islands keep near bodies at this distance, whether there are any or not.
     step.clearance =
         model_.has_pairs ? model_.distances.least : std::numeric_limits<double>::infinity();
     add_tracks(tracks, step);
@@ -145,8 +147,10 @@ class StepRecorder {
     return size;
   }
 
-  /// Those of bodies that stay at rest bear what they bore in the step before, or in the part of a
-  /// step before, for as long as this one lasts.
+  /// Adds the contacts of the step.
+  ///
+  /// Contacts of bodies that stay at rest keep their forces of the step before, or of its last
+  /// part, for the duration of this one.
   void add_contacts(const std::vector<IslandTrack>& tracks, RunStep& step) const {
     const double before = state_.contacts_lasted;
     const double of_rest = before > 0.0 && lasted_ > 0.0 ? lasted_ / before : 1.0;
@@ -175,7 +179,7 @@ class StepRecorder {
     step.contacts = without_idle(step.contacts);
   }
 
-  /// The mean forces of ties; those of bodies that stay at rest are those of the step before.
+  /// Adds the mean forces of ties; ties of bodies that stay at rest keep those of the step before.
   void add_ties(const std::vector<IslandTrack>& tracks, RunStep& step) const {
     step.ties.resize(model_.ties.size());
     for (const IslandTrack& track : tracks) {
@@ -198,7 +202,7 @@ class StepRecorder {
     }
   }
 
-  /// The track of a body until the step ends, as a run has it. Moves the body's state there.
+  /// The track of a body until the end of the step, as a run has it. Moves the body's state there.
   RunBody recorded(std::size_t b, const std::vector<TrackPiece>& pieces) {
     RunBody body{.body = b};
     RigidState& state = state_.states[b];
@@ -250,9 +254,9 @@ class StepRecorder {
     return body;
   }
 
-  /// Moves the state of a robot to where it is when the step ends.
+  /// Moves the state of a robot to the end of the step.
   ///
-  /// @returns  [N m s or N s]  of its motors until then, on each coordinate
+  /// @returns [N m s or N s]  impulses of its motors until then, on each coordinate
   VectorXd follow(const RobotTrack& track) {
     MechanismState& state = state_.robots[track.robot];
     VectorXd impulses = VectorXd::Zero(state.velocities.size());

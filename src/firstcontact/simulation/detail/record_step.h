@@ -1,5 +1,5 @@
 /// @file
-/// Records what the islands of a step did.
+/// Records the results of the islands of a step.
 
 #pragma once
 
@@ -14,7 +14,7 @@ struct SimulationState;
 struct StepStart;
 struct SimulationModel;
 
-/// Moves a simulation over a step, as far as all of its islands got, and records it.
+/// Moves a simulation over a step, as far as all of its islands came, and records it.
 [[nodiscard]] RunStep record_step(const SimulationModel& model, const StepStart& start,
                                   const std::vector<IslandTrack>& tracks, SimulationState& state);
 

@@ -1,5 +1,5 @@
 /// @file
-/// What a simulation knows between two steps.
+/// The state of a simulation between two steps.
 
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace firstcontact::detail {
 
-/// All that a step begins with, and that a recorded step has: a run that is resumed goes on alike.
+/// The data with which a step begins. A recorded step has all of them, so that a resumed run goes
+/// on alike.
 struct SimulationState {
-  std::vector<RigidState> states = {};  ///< Of each body.
+  std::vector<RigidState> states = {};  ///< One for each body.
   std::vector<MechanismState> robots = {};
-  std::vector<bool> rests = {};           ///< Of each body: found at rest in the last step.
-  std::vector<double> behind = {};        ///< [s]  Of each body: so much its script is.
-  std::vector<RunContact> contacts = {};  ///< Of the last step, sorted.
-  double contacts_lasted = 0.0;           ///< [s]  For which they acted.
-  std::vector<RunTie> ties = {};          ///< Of the last step.
+  std::vector<bool> rests = {};     ///< For each body: whether it was at rest in the last step.
+  std::vector<double> behind = {};  ///< [s]  For each body the time by which its script is behind.
+  std::vector<RunContact> contacts = {};  ///< Contacts of the last step, sorted.
+  double contacts_lasted = 0.0;           ///< [s]  Time for which they acted.
+  std::vector<RunTie> ties = {};          ///< Ties of the last step.
   double time = 0.0;                      ///< [s]
-  bool is_stuck = false;                  ///< The last step was lost, or nearly all of it.
-  std::size_t count = 0;                  ///< Of steps.
+  bool is_stuck = false;                  ///< Whether the last step was lost, or nearly all of it.
+  std::size_t count = 0;                  ///< Number of steps.
 };
 
 }  // namespace firstcontact::detail

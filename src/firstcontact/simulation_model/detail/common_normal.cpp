@@ -13,10 +13,10 @@ using Eigen::Vector3d;
 
 constexpr int kMostSteps = 50;
 constexpr int kMostHalvings = 30;
-/// [-]  A step that turns it by less is taken as it is: f is too flat there to compare.
+/// [-]  A step that turns the normal by less is taken as it is, as f is too flat there to compare.
 constexpr double kSmallTurn = 1e-5;
 
-/// How far two sides are apart along directions.
+/// The distance of two sides along directions.
 class Separation {
  public:
   explicit Separation(const std::array<NormalSide, 2>& sides)
@@ -34,13 +34,14 @@ class Separation {
     return f;
   }
 
-  /// The vector of length 1 nearest to v that is normal to the line.
+  /// The unit vector nearest to v that is normal to the line.
   [[nodiscard]] Vector3d allowed(const Vector3d& v) const {
     return (line_ ? Vector3d(v - v.dot(*line_) * *line_) : v).stableNormalized();
   }
 
-  /// Newton's step from n, tangent to the sphere there. Where f is not concave, the part that makes
-  /// it so: it grows along that, too.
+  /// Newton's step from n, tangent to the sphere there.
+  ///
+  /// Where f is not concave, only the part that makes it so is used: f grows along that, too.
   [[nodiscard]] Vector3d step(const Vector3d& n) const {
     Vector3d gradient = apart_;
     Matrix3d bend = Matrix3d::Zero();  // Minus the second derivative of f in space.
@@ -72,7 +73,7 @@ class Separation {
   std::optional<Vector3d> line_;
 };
 
-/// Goes on until steps no longer become shorter, as rounding has it.
+/// Goes on until rounding keeps steps from becoming shorter.
 ///
 /// @param step  from n
 Vector3d take_small_steps(const Separation& separation, Vector3d n, Vector3d step) {

@@ -1,5 +1,5 @@
 /// @file
-/// How far a simulation keeps bodies apart.
+/// The distances at which a simulation keeps bodies apart.
 
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace firstcontact::detail {
 
-/// Distances that keep bodies apart, beyond what the scene's margins ask of a pair.
+/// Distances that keep bodies apart, in addition to the scene's margins of a pair.
 ///
-/// A pair may not come closer than `least`: first_contact is asked with that margin. Bodies rest
-/// between it and `touching`. A pair that is nearer already, as turning may bring it, is held to
-/// half of what it has left, and pushed back.
+/// A pair may not come closer than `least`, which is the margin of its first_contact(). Bodies rest
+/// between it and `touching`. A pair that is nearer already, as a turn may bring it, is held to
+/// half of its gap, and pushed back.
 struct ContactDistances {
   explicit ContactDistances(double contact_distance)
       : least(contact_distance),
@@ -21,36 +21,36 @@ struct ContactDistances {
         pushed(kPushedOfDistance * contact_distance),
         near(band) {}
 
-  /// [m]  How much nearer a touch may come before its pair rests.
+  /// [m]  The distance by which a manifold point may come nearer before its pair rests.
   ///
-  /// A pair that touches rests on its nearest touch, and all others may come as near: what rolls
-  /// and what leans does not stand on features ahead. Another rests a little before a contact would
-  /// be found, for the way there is straight and that of a point is not.
+  /// A touching pair rests on its nearest point, and all others may come as near: a body that rolls
+  /// or leans does not stand on features ahead. A pair that does not touch rests a little before a
+  /// contact would be found, as the planned way is straight and that of a point is not.
   ///
-  /// @param gap     [m]  of the touch
-  /// @param lowest  [m]  the least gap of the pair's touches
+  /// @param gap     [m]  gap of the manifold point
+  /// @param lowest  [m]  the least gap of the pair's points
   [[nodiscard]] double way_to_rest(double gap, double lowest) const {
     const double resting = lowest <= touching ? lowest : at_rest();
     const double way = gap - resting;
     return way > kSameGap * least ? way : 0.0;
   }
 
-  /// [m]  Where pairs come to rest.
+  /// [m]  The distance at which pairs come to rest.
   [[nodiscard]] double at_rest() const { return least + kRestOfTolerance * tolerance; }
 
   double least;      ///< [m]
-  double tolerance;  ///< [m]  A contact is found at least .. least + tolerance.
+  double tolerance;  ///< [m]  A contact is found between least and least + tolerance.
   double touching;   ///< [m]  Impacts act on pairs within it.
   double band;       ///< [m]  Constraints act on pairs within it.
   double pushed;     ///< [m]  Pairs below it are pushed apart.
   double near;       ///< [m]  Beyond it not even circles of any pair are within the band.
 };
 
-/// How a pair is asked for first contact, which was this far apart at the start.
+/// The margin and tolerance of a first contact for a pair with this gap at the start.
 ///
-/// @param gap  [m]  least, infinite where it is beyond the band
+/// @param gap  [m]  the least gap, infinite where it is beyond the band
 struct HeldDistance {
-  double margin = 0.0;     ///< [m]  Of the question.
+  double margin = 0.0;     ///< [m]  Margin of the first contact.
   double tolerance = 0.0;  ///< [m]
 };
 [[nodiscard]] HeldDistance held_distance(const ContactDistances& distances, double pair_margin,

@@ -16,10 +16,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [-]  Of places and radii: corners are on their ellipsoid but for this.
+/// [-]  Rounding of places and radii: corners are on their ellipsoid within it.
 constexpr double kRoundingOfEllipsoids = 1e-12;
 
-/// An edge from its middle.
+/// An edge, relative to its middle.
 struct Edge {
   std::array<std::uint32_t, 2> ends = {};  // Vertices.
   Vector3d middle = Vector3d::Zero();      // [m]
@@ -27,15 +27,15 @@ struct Edge {
   double half = 0.0;                       // [m]
 };
 
-/// One body of a contact in the world.
+/// One body of a contact, in the world.
 struct Side {
   NormalSide core = {};
   RoundFeature round = {};
-  double thickness = 0.0;         // [m]  Around the core.
-  std::optional<Edge> edge = {};  // Of a body that is no ellipsoid, as the core.
-  bool is_face = false;           // And flat.
+  double thickness = 0.0;         // [m]  Thickness around the core.
+  std::optional<Edge> edge = {};  // Edge that is the core, for a body that is no ellipsoid.
+  bool is_face = false;           // Whether it is a flat face.
 
-  /// [m]  The point of the surface that is farthest along n; of an edge, beside another point.
+  /// [m]  The point of the surface that is farthest along n; for an edge, beside another point.
   [[nodiscard]] Vector3d farthest(const Vector3d& n, const Vector3d& beside) const {
     const Vector3d along =
         core.line ? Vector3d((beside - core.point).dot(*core.line) * *core.line) : Vector3d::Zero();
@@ -43,6 +43,8 @@ struct Side {
   }
 };
 
+/// The side of a contact at a feature.
+///
 /// @param outwards  [-]  unit, out of the body
 Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& point,
              const Vector3d& outwards, double most_sag) {
@@ -67,7 +69,7 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
   return side;
 }
 
-/// What separates two sides.
+/// The direction that separates two sides, and their closest points.
 struct Separated {
   Vector3d n;                      // [-]  From A to B.
   std::array<Vector3d, 2> points;  // [m]
@@ -85,8 +87,9 @@ Separated separate(const std::array<Side, 2>& sides, const Vector3d& before) {
   return found;
 }
 
-/// Makes a side, and its feature, the end of its edge where the closest point of the line is
-/// beyond. Returns whether it did.
+/// Replaces a side by the end of its edge where the closest point of the line is beyond.
+///
+/// The feature becomes that corner. It returns whether it did.
 bool end_edge(Side& side, const Vector3d& closest, Feature& feature) {
   if (!side.edge) {
     return false;
@@ -129,7 +132,7 @@ std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& b
   if (!(distance >= contact.distance - sag - rounding && distance <= contact.distance + rounding)) {
     return {};
   }
-  // A plane passes the closest point of the face, so the point on it lies along the normal.
+  // A plane passes through the closest point of the face, so the point on it lies along the normal.
   for (std::size_t s = 0; s < 2; ++s) {
     if (sides[s].is_face) {
       found.points[s] = found.points[1 - s] + (s == 1 ? distance : -distance) * found.n;

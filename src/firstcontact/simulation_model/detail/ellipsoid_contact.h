@@ -1,5 +1,5 @@
 /// @file
-/// Contacts of triangles as those of the ellipsoids that they stand for.
+/// Contacts of the ellipsoids that triangles stand for.
 
 #pragma once
 
@@ -10,16 +10,17 @@
 
 namespace firstcontact::detail {
 
-/// Replaces the triangles of ellipsoids in a contact by the ellipsoids: its closest points, normal
-/// and distance become theirs. Where the nearest point of an edge is its end, the feature is that
-/// corner then.
+/// Replaces the triangles of ellipsoids in a contact by the ellipsoids.
 ///
-/// An ellipsoid is outside of its triangles, so the distance becomes smaller. Where it becomes
-/// larger, or smaller by more than the sag, the contact stays as it is: then another feature of the
-/// other body is the nearest one.
+/// The closest points, the normal and the distance become theirs. Where the nearest point of an
+/// edge is its end, the feature becomes that corner.
+///
+/// An ellipsoid is outside of its triangles, so the distance becomes smaller. The contact stays as
+/// it is where the distance becomes larger, or smaller by more than the sag. Then another feature
+/// of the other body is the nearest one.
 ///
 /// @param most_sag  [m]  of an ellipsoid
-/// @returns  on which ellipsoids it is then
+/// @returns the ellipsoids on which the contact then is
 std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& bodies,
                                              double most_sag, Contact& contact);
 

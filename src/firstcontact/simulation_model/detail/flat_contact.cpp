@@ -11,10 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [-]  The cosine to which a normal may lean off that of the face.
+/// [-]  Least cosine between a leaning normal and that of the face.
 constexpr double kMostLean = 0.9;
 
-/// The normal of a face in world axes, on the side of a direction; zero: the triangle has no area.
+/// The normal of a face in world axes, on the side of a direction; zero for a triangle without
+/// area.
 Vector3d face_normal(const PlacedSurface& body, std::uint32_t triangle, const Vector3d& outwards) {
   const Mesh& mesh = body.shape->mesh();
   const auto& corners = mesh.triangles[triangle];
@@ -27,7 +28,7 @@ Vector3d face_normal(const PlacedSurface& body, std::uint32_t triangle, const Ve
 /// Lays the contact on the face of A.
 void lay_on_face_of_A(const PlacedSurface& A, const PlacedSurface& B, Contact& contact) {
   const double around = A.neighbours->flat_around(contact.feature_A);
-  if (around == 0.0) {  // As of points without triangles.
+  if (around == 0.0) {  // As for points without triangles.
     return;
   }
   const Vector3d& before = *contact.n_AB_W;

@@ -1,5 +1,5 @@
 /// @file
-/// What is over a flat edge, or over a flat corner, is over a face.
+/// Contacts over flat edges and flat corners as contacts over a face.
 
 #pragma once
 
@@ -25,9 +25,9 @@ struct PlacedSurface {
 /// Gives a contact of a vertex with an edge or a vertex within a flat face the normal and the
 /// points of that face.
 ///
-/// The nearest point of an edge ahead lies aside of what comes over it, so its normal leans. The
-/// surface goes on flat there: no other normal than that of the face can push. Without this a ball
-/// that slides over such an edge is turned aside, and falls about the edge while it is above it.
+/// The nearest point of an edge ahead is aside of an approaching body, so its normal leans. The
+/// surface goes on flat there, and only the normal of the face can push. Otherwise a ball that
+/// slides over such an edge is turned aside, and falls about the edge while it is above it.
 void lay_on_face(const std::array<PlacedSurface, 2>& bodies, Contact& contact);
 
 }  // namespace firstcontact::detail

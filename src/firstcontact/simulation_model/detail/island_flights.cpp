@@ -18,8 +18,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The rule of a robot whose positions without drives at the end of a span are those of the mean of
-/// these velocities, or lead by flights to `end`.
+/// The rule of a robot's positions at the end of a span.
+///
+/// Without drives they are those of the mean of these velocities, or flights lead them to `end`.
 PositionRule rule_of(const std::vector<JointLaw>& laws, const MechanismState& state,
                      const MechanismState& end, const VectorXd& weights, double span) {
   PositionRule rule{weights, VectorXd::Zero(weights.size())};
@@ -31,8 +32,10 @@ PositionRule rule_of(const std::vector<JointLaw>& laws, const MechanismState& st
   return rule;
 }
 
-/// How drives act over a flight: those that reach their targets have them at its end, whatever
-/// forces that takes, and the others act with constant forces.
+/// The action of drives over a flight.
+///
+/// Drives that reach their targets have them at the end, whatever forces that takes. The others act
+/// with constant forces.
 MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vector<double>& impulses,
                          const VectorXd& velocities, double span) {
   MechanismDrive drive{.forces = VectorXd::Zero(velocities.size())};
@@ -124,10 +127,10 @@ bool IslandRobots::jumps(std::size_t r, const RobotFlight& flight,
   });
 }
 
-/// The flight of inertia alone, and drives by the end of the span.
+/// The flight of inertia alone, with drives by the end of the span.
 ///
-/// Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It does
-/// not fall: the forces of gravity are those where it gets.
+/// Inertia carries driven links as they move by themselves, or a fast turn would gain energy. They
+/// do not fall in it: the forces of gravity are those at the end.
 RobotFlight IslandRobots::flight_by_end(std::size_t r, const PlanSpan& span,
                                         const VectorXd& load) const {
   const Robot& robot = robots_[r];
@@ -149,7 +152,8 @@ RobotFlight IslandRobots::flight_by_end(std::size_t r, const PlanSpan& span,
   return flight;
 }
 
-/// The flight with all forces: those of drives are predicted from how things are at its begin.
+/// The flight with all forces; those of drives are predicted from the state at its begin.
+///
 /// Drives of the contact problem change them.
 RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
                                     const VectorXd& load) const {
@@ -189,7 +193,7 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
   }
   flight.rule = rule_of(laws, robot.state, flight.end, flight.rule.weights, h);
   flight.drives = drives_by_rule(laws, robot.state, flight.rule, span);
-  // What led a coordinate is what all of its drives did together.
+  // All drives of a coordinate together led it.
   for (std::size_t i = 0; i < drive.driven.size(); ++i) {
     double rest = motion.impulses[static_cast<Eigen::Index>(i)];
     std::optional<std::size_t> leads;

@@ -30,7 +30,7 @@ Pose link_body_pose(const SimBody& body, const MechanismInstant& instant) {
           (X_WL.rotation * X_LB.rotation.normalized()).normalized()};
 }
 
-/// The move from one pose to another, of all turns the one nearest to `expected`.
+/// The move from one pose to another; among all turns the one nearest to `expected`.
 Move move_between(const SimBody& body, const Pose& from, const Pose& to, const Vector3d& expected) {
   return {centre_of_mass(body.inertia, to) - centre_of_mass(body.inertia, from),
           nearest_turn(to.rotation * from.rotation.normalized().conjugate(), expected)};
@@ -42,7 +42,7 @@ IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
                            const std::vector<std::size_t>& members,
                            const std::vector<std::size_t>& bare)
     : model_(model), place_(members.size(), {kNone, kNone}) {
-  std::vector<std::size_t> numbers;  // Of the world, of each robot here.
+  std::vector<std::size_t> numbers;  // Number in the simulation model, for each robot here.
   for (std::size_t k = 0; k < members.size(); ++k) {
     const SimBody& body = model.bodies[members[k]];
     if (!body.link_body) {
@@ -173,7 +173,7 @@ void IslandRobots::add_stops(ContactProblem& problem) const {
   }
 }
 
-/// [N m s or N s]  Of each drive of a robot.
+/// [N m s or N s]  The impulse of each drive of a robot.
 std::vector<double> IslandRobots::drives_of(std::size_t robot, const ContactProblem& problem,
                                             const ContactSolution& solution) const {
   std::vector<double> drives;
@@ -185,7 +185,7 @@ std::vector<double> IslandRobots::drives_of(std::size_t robot, const ContactProb
   return drives;
 }
 
-/// [N m s or N s]  What the motors of a robot, the first ones of its drives, did to each
+/// [N m s or N s]  The effect of the motors of a robot, the first of its drives, on each
 /// coordinate.
 VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
                                    const ContactProblem& problem,
@@ -199,9 +199,11 @@ VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
   return impulses;
 }
 
-/// The velocities that contacts make where the flight leads, with the momenta that impulses from
-/// outside make. Arms are those of the begin: the two sides of a contact are apart where the flight
-/// leads, and their impulses would turn the robot as a whole.
+/// The velocities after contacts at the end of the flight, with the momenta of impulses from
+/// outside.
+///
+/// Arms are those of the begin. At the end of the flight the two sides of a contact are apart, and
+/// their impulses would turn the robot as a whole.
 VectorXd IslandRobots::balanced(std::size_t r, const RobotFlight& flight, const OuterImpulse& outer,
                                 const VectorXd& v) const {
   const Mechanism& mechanism = robots_[r].robot->mechanism;
@@ -214,15 +216,16 @@ VectorXd IslandRobots::balanced(std::size_t r, const RobotFlight& flight, const 
                                 before.angular_momentum + outer.angular);
 }
 
-/// Where the mean of the velocities at both ends leads.
+/// The positions to which the mean of the velocities at both ends leads.
 VectorXd IslandRobots::mean_positions(std::size_t r, const RobotFlight& flight, const VectorXd& v,
                                       double span) const {
   const VectorXd changed = v - flight.end.velocities;
   return robots_[r].robot->mechanism.moved(flight.end.positions, 0.5 * span * changed);
 }
 
-/// The displacement that takes coordinates from there to where their drives place them: of all that
-/// do, the least one in the kinetic metric, as impulses would make it.
+/// The displacement from there to the positions where drives place coordinates.
+///
+/// It is the least such displacement in the kinetic metric, as impulses would make it.
 VectorXd IslandRobots::placement(std::size_t r, const RobotFlight& flight,
                                  const std::vector<double>& drives, const VectorXd& v,
                                  const VectorXd& positions, const PlanSpan& span) const {
@@ -415,7 +418,7 @@ void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, do
   }
 }
 
-/// The block of its base in the mass matrix is that of the whole, about the reference point.
+/// The block of its base in the mass matrix is that of the whole robot, about the reference point.
 Eigen::Matrix3d IslandRobots::inertia(std::size_t robot) const {
   const MechanismInstant instant = robots_[robot].robot->mechanism.at(robots_[robot].state);
   const MechanismMechanics whole = mechanics(robot);
@@ -436,7 +439,7 @@ void IslandRobots::move_faster(std::size_t r, const Vector3d& v, const Vector3d&
 
 void IslandRobots::take_velocities(const ContactSolution& solution,
                                    const std::vector<OuterImpulse>& outer) {
-  ContactProblem solved;  // As far as drives are concerned.
+  ContactProblem solved;  // Problem that was solved, as far as drives are concerned.
   add_drives_at_impact(solved);
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Mechanism& mechanism = robots_[r].robot->mechanism;
@@ -474,7 +477,7 @@ MechanismState part_of_way(const Mechanism& mechanism, const MechanismState& beg
   const auto at = [&](const Vector3d& a, const Vector3d& b) -> Vector3d {
     return a + share * (b - a);
   };
-  // The moment of the weight about the origin grows with the way of the centre of mass.
+  // The moment of the weight about the origin grows as the centre of mass moves.
   const Vector3d moment = (to.p_WC - from.p_WC).cross(from.mass * gravity) * span;
   state.velocities = mechanism.with_momenta(
       state, at(from.linear_momentum, to.linear_momentum),

@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// [-]  A motor takes the rate of its target where the mean of the velocities at both ends leads to
-/// it, to this part of their change: on smooth targets, and not where they have a kink.
+/// it, to this part of their change: on smooth targets, not at a kink.
 constexpr double kSmoothTarget = 0.25;
-/// [-]  Rates are those just before a time, by the span.
+/// [-]  Time before a kink at which rates are taken, by the span.
 constexpr double kJustBefore = 1e-9;
 
 double number_at(const std::vector<TimedNumber>& target, double time) {
@@ -36,7 +36,7 @@ double number_at(const std::vector<TimedNumber>& target, double time) {
   return before.number + share * (next->number - before.number);
 }
 
-/// The mean of the lines between the numbers over a span, however short what happens in it.
+/// The mean of the lines between the numbers over a span; exact for short changes, too.
 double mean_over(const std::vector<TimedNumber>& target, double from, double length) {
   double time = from;
   double number = number_at(target, from);
@@ -60,7 +60,7 @@ struct Target {
   double rate = 0.0;
 };
 
-/// Lines between the numbers, or cubics where rates are given.
+/// The target on lines between the numbers, or on cubics where rates are given.
 Target target_at(const JointLaw& law, double time) {
   const std::vector<TimedNumber>& target = law.motor->target;
   const auto next = std::ranges::upper_bound(target, time, {}, &TimedNumber::time);
@@ -77,7 +77,7 @@ Target target_at(const JointLaw& law, double time) {
   const auto k = static_cast<std::size_t>(next - target.begin());
   const double rate_A = law.rates[k - 1].number;
   const double rate_B = law.rates[k].number;
-  // How far the cubic is from the line, by what the rates differ from the line's.
+  // Distance of the cubic from the line, by the differences of the rates from the line's.
   const double from_A = length * rate_A - way;
   const double from_B = length * rate_B - way;
   const double t = 1.0 - s;
@@ -85,13 +85,14 @@ Target target_at(const JointLaw& law, double time) {
           (way + t * (t - 2.0 * s) * from_A - s * (2.0 * t - s) * from_B) / length};
 }
 
-/// A position that limits allow.
+/// The nearest position that limits allow.
 double within(const JointLimits& limits, double q) {
   return std::min(std::max(q, limits.lower.value_or(q)), limits.upper.value_or(q));
 }
 
-/// A velocity that leads no farther than the limits: two laws that nothing yields to, against each
-/// other, have no solution.
+/// A velocity that leads no farther than the limits.
+///
+/// Two laws that nothing yields to have no solution against each other.
 double within_limits(const JointLaw& law, double velocity, double q, double span) {
   const double least = law.limits.lower ? (*law.limits.lower - q) / span : velocity;
   const double greatest = law.limits.upper ? (*law.limits.upper - q) / span : velocity;
@@ -105,7 +106,7 @@ JointDrive torque_drive(const JointLaw& law, const PlanSpan& span) {
   return {.least = impulse, .greatest = impulse};
 }
 
-/// [rad or m]  Where a motor is led from a position.
+/// [rad or m]  The position to which a motor is led from a position.
 double caught_up(const JointLaw& law, double q, const PlanSpan& span) {
   const double to = target_at(law, span.to()).number;
   if (span.length >= span.catch_up) {
@@ -115,6 +116,8 @@ double caught_up(const JointLaw& law, double q, const PlanSpan& span) {
   return q + (to - from) + span.length / span.catch_up * (from - q);
 }
 
+/// The drive of a motor by the end of the span.
+///
 /// @param q       [rad or m]  at the begin
 /// @param origin  [rad or m]  at the end q is origin + length u
 JointDrive motor_by_end(const JointLaw& law, double q, double origin, const PlanSpan& span) {
@@ -148,9 +151,9 @@ JointDrive motor_by_end(const JointLaw& law, double q, double origin, const Plan
 
 /// One coordinate over a span, and its rule.
 struct Coordinate {
-  double q;  // At its begin.
+  double q;  // Position at the begin.
   double v;
-  double weight;  // At its end q is origin + span weight u.
+  double weight;  // At the end the position is origin + span weight u.
   double origin;
 };
 
@@ -160,7 +163,7 @@ Coordinate coordinate_of(const JointLaw& law, const MechanismState& state,
           rule.origin[law.velocity]};
 }
 
-/// [rad or m]  Where a motor without spring leads in a span.
+/// [rad or m]  The position to which a motor without spring leads in a span.
 double goal(const JointLaw& law, double q, const PlanSpan& span) {
   if (law.motor->kind == JointMotor::Kind::position) {
     return within(law.limits, caught_up(law, q, span));
@@ -189,7 +192,8 @@ double speed_at_goal(const JointLaw& law, const Coordinate& c, const PlanSpan& s
   return is_smooth ? target.rate : mean;
 }
 
-/// r = span (k (missing - q') + d (rate - u')), with the weighted means q' and u' of both ends.
+/// The drive r = span (k (missing - q') + d (rate - u')), with the weighted means q' and u' of both
+/// ends.
 JointDrive spring_by_rule(const JointLaw& law, const Coordinate& c, const PlanSpan& span,
                           JointDrive drive) {
   const double k = *law.motor->stiffness;
@@ -223,13 +227,13 @@ bool is_stop(const JointDrive& drive) {
          !(std::isfinite(drive.least) && std::isfinite(drive.greatest));
 }
 
-/// Which drives act, and the impulses of the others.
+/// The drives that act, and the impulses of the others.
 struct ActiveDrives {
   std::vector<std::size_t> active = {};
   std::vector<double> impulses = {};
 };
 
-/// All but stops, and but friction where a motor decides the velocity.
+/// All drives except stops, and except friction where a motor determines the velocity.
 ActiveDrives first_active(const std::vector<JointDrive>& drives) {
   ActiveDrives made;
   for (std::size_t k = 0; k < drives.size(); ++k) {
@@ -254,7 +258,7 @@ ActiveDrives first_active(const std::vector<JointDrive>& drives) {
   return made;
 }
 
-/// The impulses of active drives with which they meet their laws. Returns whether there are.
+/// Finds the impulses with which active drives meet their laws. Returns whether there are any.
 bool solve_active(const MatrixXd& inverse_mass, const VectorXd& u,
                   const std::vector<JointDrive>& drives, ActiveDrives& now) {
   const auto n = static_cast<Index>(now.active.size());
@@ -290,7 +294,7 @@ bool solve_active(const MatrixXd& inverse_mass, const VectorXd& u,
   return solved.allFinite();
 }
 
-/// The drive, on the coordinate of a law.
+/// A drive on the coordinate of a law.
 JointDrive on_coordinate_of(const JointLaw& law, JointDrive drive) {
   drive.coordinate = static_cast<std::size_t>(law.velocity);
   return drive;

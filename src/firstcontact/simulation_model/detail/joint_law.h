@@ -1,5 +1,5 @@
 /// @file
-/// The law of one coordinate of a robot: what drives, brakes and stops it over a span of time.
+/// The law of one coordinate of a robot over a span of time: its drives, brakes and stops.
 
 #pragma once
 
@@ -18,14 +18,15 @@ namespace firstcontact::detail {
 
 /// The law of one coordinate, besides gravity, inertia and contacts.
 struct JointLaw {
-  Eigen::Index position = 0;  ///< Of the mechanism's positions,
-  Eigen::Index velocity = 0;  ///< and velocities.
+  Eigen::Index position = 0;  ///< Index among the mechanism's positions.
+  Eigen::Index velocity = 0;  ///< Index among the mechanism's velocities.
   JointLimits limits = {};
   double damping = 0.0;   ///< [N m s/rad or N s/m]
   double friction = 0.0;  ///< [N m or N]
   std::optional<JointMotor> motor = {};
-  /// [rad/s or m/s]  The rates of the motor's target at its times, where a trajectory gives it:
-  /// cubics lead from one to the next. Empty: lines do.
+  /// [rad/s or m/s]  Rates of the motor's target at its times, for a target from a trajectory.
+  ///
+  /// With them cubics lead from one time to the next. Without them lines do.
   std::vector<TimedNumber> rates = {};
 };
 
@@ -33,31 +34,34 @@ struct JointLaw {
 struct PlanSpan {
   double from = 0.0;    ///< [s]  Since the simulation began.
   double length = 0.0;  ///< [s]  > 0
-  /// [s]  In which motors catch up what they are behind their targets. In the plans of a jam, which
-  /// are short, they would be as fast as numbers can be. A plan that is longer is all of it.
+  /// [s]  The time in which motors catch up with their targets; a longer plan is all of it.
+  ///
+  /// In the short plans of a jam motors would otherwise have extreme velocities.
   double catch_up = 0.0;
   [[nodiscard]] double to() const { return from + length; }
 };
 
-/// How positions at the end of a span follow from the velocities u there: origin + span weight u.
+/// The rule for positions at the end of a span from the velocities u there: origin + span weight u.
+///
 /// Entries are in the order of velocities.
 struct PositionRule {
   Eigen::VectorXd weights;  ///< [-]  From 1/2, the mean of both ends, to 1, the end alone.
-  Eigen::VectorXd origin;   ///< [rad or m]  Of coordinates that have laws.
+  Eigen::VectorXd origin;   ///< [rad or m]  For coordinates with laws.
 };
 
 /// [N m s or N s]  The greatest impulse of the motor of a law over a span [s].
 [[nodiscard]] double greatest_impulse(const JointLaw& law, double span);
 
-/// Whether a motor holds its joint against any force, impacts too.
+/// Whether a motor holds its joint against any force, also in impacts.
 [[nodiscard]] bool is_rigid(const JointLaw& law);
 
-/// [-]  The weight of the end of a span that makes the decay of one damped coordinate exact,
-/// 1 / (1 - exp(-z)) - 1 / z.
+/// [-]  The weight of the end of a span that makes the decay of one damped coordinate exact.
 ///
-/// This is the exponential fit of W. Liniger, R. A. Willoughby, "Efficient integration methods for
+/// It is 1 / (1 - exp(-z)) - 1 / z. It differs from 1/2 by z / 12, so that rules stay of second
+/// order.
+///
+/// Source: the exponential fit of W. Liniger, R. A. Willoughby, "Efficient integration methods for
 /// stiff systems of ordinary differential equations", SIAM Journal on Numerical Analysis 7 (1970).
-/// It differs from 1/2 by z / 12, so that rules stay of second order.
 ///
 /// @param z  span damping / mass
 [[nodiscard]] double fitted_weight(double z);
@@ -80,8 +84,9 @@ struct PositionRule {
                                                      const PositionRule& rule,
                                                      const PlanSpan& span);
 
-/// The drives of a span by Euler's implicit rule, in the same order: the end of the span decides
-/// how far springs reach, how fast dampers move, and where limits stop.
+/// The drives of a span by Euler's implicit rule, in the same order.
+///
+/// The end of the span determines the extension of springs, the speed of dampers, and the stops.
 ///
 /// @param origin  positions from which the velocities u at the end lead to origin + span u
 [[nodiscard]] std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
@@ -91,31 +96,34 @@ struct PositionRule {
 
 /// A coordinate and its position at the end of a span.
 struct PlacedCoordinate {
-  Eigen::Index velocity = 0;  ///< Of the mechanism's velocities,
-  Eigen::Index position = 0;  ///< and positions.
+  Eigen::Index velocity = 0;  ///< Index among the mechanism's velocities.
+  Eigen::Index position = 0;  ///< Index among the mechanism's positions.
   double at = 0.0;            ///< [rad or m]
   /// Whether the rows of a motor lead it from one position to another.
   bool is_along_rows = false;
 };
 
-/// The coordinates whose positions at the end of a span are not those of the mean of velocities.
+/// The coordinates whose positions at the end of a span differ from those of the mean of
+/// velocities.
 ///
-/// Motors that reach their target are where that has them. Others are where weights above 1/2 lead.
+/// Motors that reach their target are at the target's position. Others are where weights above 1/2
+/// lead.
 ///
-/// @param drives    of drives_by_rule()
-/// @param impulses  of each drive
+/// @param drives    result of drives_by_rule()
+/// @param impulses  one for each drive
 /// @param u         velocities at the end
 [[nodiscard]] std::vector<PlacedCoordinate> placed_coordinates(
     const std::vector<JointLaw>& laws, const std::vector<JointDrive>& drives,
     const std::vector<double>& impulses, const MechanismState& state, const PositionRule& rule,
     const PlanSpan& span, const Eigen::VectorXd& u);
 
-/// Whether a drive asks for a velocity, and its impulse is within its bounds: it has that velocity.
+/// Whether a drive has a target velocity, and reaches it with an impulse within its bounds.
 [[nodiscard]] bool reaches_target(const JointDrive& drive, double impulse);
 
-/// The impulses of drives without contacts, to start from.
+/// Predicts the impulses of drives without contacts, as a start.
 ///
-/// They are exact where no bound acts, and where those act that the impulses without bounds exceed.
+/// They are exact where no bound acts, and where exactly those bounds act that the impulses without
+/// bounds exceed.
 ///
 /// @param u  velocities without drives
 [[nodiscard]] std::vector<double> predicted_impulses(const Eigen::MatrixXd& inverse_mass,

@@ -25,17 +25,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a pair; there may be more.
+/// Usual number of manifold points of a pair; there may be more.
 constexpr std::size_t kUsualTouches = 4;
 
 auto features_of(const ManifoldPoint& touch) {
   return std::tuple(touch.feature_A.type, touch.surface[0], touch.feature_B.type, touch.surface[1]);
 }
 
-/// Finds what touches in place of what touched before, among the touches of a pair.
+/// Finds the successors of earlier points among the manifold points of a pair.
 class Successors {
  public:
-  /// @param close_by  [m]  how far it may be where it has other features
+  /// @param close_by  [m]  greatest distance of a successor with other features
   Successors(double close_by, std::vector<ManifoldPoint>& touches)
       : touches_(touches), close_by_(close_by), by_place_(close_by) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
@@ -50,7 +50,7 @@ class Successors {
     }
   }
 
-  /// Null where there is none.
+  /// The successor of a point; null where there is none.
   ManifoldPoint* of(const ManifoldPoint& before) {
     if (ManifoldPoint* same = of_same_features(before)) {
       return same;
@@ -69,7 +69,8 @@ class Successors {
   }
 
  private:
-  /// What rolls touches elsewhere after each step: the nearest touch on a curve that faces alike.
+  /// The nearest point on a curve that faces alike: a rolling body touches elsewhere after each
+  /// step.
   ManifoldPoint* on_curve(const ManifoldPoint& before) {
     ManifoldPoint* nearest = nullptr;
     for (ManifoldPoint& touch : touches_) {
@@ -83,10 +84,10 @@ class Successors {
     return nearest;
   }
 
-  /// As many are looked through as they are.
+  /// Up to this number all points are compared.
   static constexpr std::size_t kFew = 24;
 
-  /// The first of them.
+  /// The first point of the same features.
   ManifoldPoint* of_same_features(const ManifoldPoint& before) {
     if (touches_.size() <= kFew) {
       const auto same = std::ranges::find_if(
@@ -102,11 +103,11 @@ class Successors {
 
   std::vector<ManifoldPoint>& touches_;
   double close_by_;
-  std::vector<std::size_t> by_features_;  // Where there are many.
+  std::vector<std::size_t> by_features_;  // Only where there are many.
   SpatialHash by_place_;
 };
 
-/// Two bodies, of which features are asked whether they bulge towards each other.
+/// Two bodies, with a test whether their features bulge towards each other.
 class FacingBodies {
  public:
   FacingBodies(const SimulationModel& model, const BodyPair& bodies,
@@ -116,8 +117,10 @@ class FacingBodies {
         R_AW_(poses[0].rotation.normalized().conjugate()),
         R_BW_(poses[1].rotation.normalized().conjugate()) {}
 
-  /// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
-  /// over it the gap is least at the ends of the other edge, or where that leaves the face.
+  /// Whether the bodies bulge towards each other at a contact.
+  ///
+  /// It is false where edges cross within a flat face. Over that the gap is least at the ends of
+  /// the other edge, or where it leaves the face.
   [[nodiscard]] bool are_outermost(const Contact& contact) const {
     const Vector3d& n_W = *contact.n_AB_W;
     const bool are_edges =
@@ -136,7 +139,7 @@ class FacingBodies {
   Eigen::Quaterniond R_BW_;
 };
 
-/// A pair whose contacts become touches.
+/// Makes manifold points of a pair's contacts.
 struct TouchMaker {
   TouchMaker(const SimulationModel& model, const BodyPair& pair, const std::array<Pose, 2>& poses,
              double its_margin)
@@ -184,12 +187,14 @@ struct TouchMaker {
   std::array<PlacedRound, 2> placed;
 };
 
-/// Which of some contacts count where there are very many: of those beside each other that face
-/// alike the nearest, of bulging ones. The motion of a rigid body hardly differs between them, and
-/// where it does the next first contact tells.
+/// Chooses among very many contacts: of those beside each other that face alike the nearest bulging
+/// one.
+///
+/// The motion of a rigid body is nearly the same at all of them. Where it is not, the next first
+/// contact finds it.
 class NearestOfMany {
  public:
-  /// @param apart  [m]
+  /// @param apart  [m]  width of a neighbourhood
   explicit NearestOfMany(double apart) : apart_(apart) {}
 
   void add(const Contact& contact, const FacingBodies& facing) {
@@ -201,7 +206,7 @@ class NearestOfMany {
     }
   }
 
-  /// In the order of the list that they are from.
+  /// The chosen contacts, in the order of their list.
   [[nodiscard]] std::vector<const Contact*> take() const {
     std::vector<const Contact*> all;
     for (const auto& [cell, nearest] : nearest_) {
@@ -218,8 +223,10 @@ class NearestOfMany {
   std::unordered_map<FacingCell, const Contact*, CellHash> nearest_;
 };
 
-/// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an
-/// edge of it, say the same: of them the nearest is kept.
+/// Adds a point to the kept ones, unless a nearer one stands for it.
+///
+/// Features that meet in one place, as the corner of one face and an edge of it, constrain alike:
+/// the nearest is kept.
 ///
 /// @param size  [m]  of the smaller body
 void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
@@ -241,8 +248,9 @@ void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
   by_place.add(touch.point, same);
 }
 
-/// Drops corners of the triangles of an ellipsoid beside a plane that the ellipsoid touches: they
-/// are inside of it, and another corner of the triangles is nearer.
+/// Drops corners of an ellipsoid's triangles beside a plane that the ellipsoid touches.
+///
+/// They are inside of the ellipsoid, and another corner of the triangles is nearer.
 ///
 /// @param same  [m]  planes that are less apart are one
 void drop_inner_corners(const TouchMaker& maker, double same, std::vector<ManifoldPoint>& touches) {
@@ -267,7 +275,9 @@ void drop_inner_corners(const TouchMaker& maker, double same, std::vector<Manifo
   }
 }
 
-/// @param beside  [m]
+/// The manifold points among very many contacts.
+///
+/// @param beside  [m]  width of a neighbourhood
 std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const TouchMaker& maker,
                                               const std::vector<Contact>& contacts, double beside) {
   NearestOfMany nearest(beside);

@@ -1,5 +1,5 @@
 /// @file
-/// Where two bodies touch: the contacts that act on them.
+/// The manifold of two bodies: the contacts that act on them.
 
 #pragma once
 
@@ -24,27 +24,30 @@ struct ManifoldPoint {
   BodyPair bodies = {};
   Feature feature_A;
   Feature feature_B;
-  std::array<std::uint32_t, 2> surface = {};        ///< SurfaceNeighbours::surface_index of both.
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
+  std::array<std::uint32_t, 2> surface = {};          ///< SurfaceNeighbours::surface_index of both.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  In the world, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
-  double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
-  std::array<RoundFeature, 2> round = {};             ///< On which curve of A, of B it is.
+  double gap = 0.0;                                   ///< [m]  Excess over the pair's margin.
+  std::array<RoundFeature, 2> round = {};  ///< Curved feature of A and of B on which the point is.
   std::array<bool, 2> corner = {false, false};  ///< Whether a corner of A, of B, is on a face; not
-                                                ///< one of a circle, which runs round.
-  std::array<bool, 2> faces = {false, false};   ///< Whether its normal goes with A, with B, as if
-                                                ///< it were that of a face.
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
+                                                ///< a corner of a circle, which runs round.
+  std::array<bool, 2> faces = {false, false};   ///< Whether the normal goes with A, with B, like
+                                                ///< that of a face.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  Impulse on B in world axes; found
+                                                      ///< or guessed.
 };
 
-/// All triangles of a flat face are one feature.
+/// Whether two points have the same features; all triangles of a flat face are one feature.
 [[nodiscard]] bool same_features(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// Whether both are on one circle, or one ellipsoid, of one of the bodies.
 [[nodiscard]] bool share_curve(const ManifoldPoint& x, const ManifoldPoint& y);
 
-/// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
-/// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without
-/// normal, of surfaces that meet, are left out.
+/// Makes manifold points of the contacts of a list at which both surfaces bulge towards each other.
+///
+/// Each place is taken once; where no surface bulges, all contacts are taken. Of very many, the
+/// nearest ones of each neighbourhood are taken. Contacts without normal, of surfaces that meet,
+/// are left out.
 ///
 /// @param margin  [m]  of the pair
 [[nodiscard]] std::vector<ManifoldPoint> touches_among(const SimulationModel& model,
@@ -53,14 +56,15 @@ struct ManifoldPoint {
                                                        double margin,
                                                        const std::vector<Contact>& contacts);
 
-/// The touches of two bodies at rest at these poses, and the least gap of all their features.
+/// The manifold points of two bodies at rest at these poses, and the least gap of all their
+/// features.
 struct Manifold {
   BodyPair bodies = {};
   double gap = 0.0;  ///< [m]  Infinite where nothing is within the band.
   std::vector<ManifoldPoint> touches = {};
 };
 
-/// [m]  Of its touches; infinite where there is none.
+/// [m]  The least gap of the manifold points; infinite where there is none.
 [[nodiscard]] double least_gap(const Manifold& manifold);
 
 /// Finds the manifolds of many pairs in memory that they share.
@@ -69,6 +73,8 @@ class ManifoldFinder {
   ManifoldFinder(const SimulationModel& model, Workspace& workspace)
       : model_(model), workspace_(workspace) {}
 
+  /// Finds the manifold of a pair.
+  ///
   /// @param A,B     the shapes of the pair
   /// @param margin  [m]  of the pair
   [[nodiscard]] Manifold find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
@@ -80,13 +86,14 @@ class ManifoldFinder {
   std::vector<Contact> contacts_;
 };
 
-/// Whether the bodies, or else the features, of one touch come before those of the other.
+/// Whether one point comes before the other: by the bodies, then by the features.
 [[nodiscard]] bool comes_before(const ManifoldPoint& x, const ManifoldPoint& y);
 
-/// Gives the manifold the impulses of the touches before.
+/// Gives the manifold the impulses of earlier points.
 ///
-/// Each goes to the touch of the same features or, as these change with every rounding where edges
-/// lie on edges, to the nearest one close by; or else to the nearest one on a curve.
+/// Each impulse goes to the point of the same features. These change with every rounding where
+/// edges lie on edges. Then it goes to the nearest point close by, or else to the nearest one on a
+/// curve.
 ///
 /// @param before  sorted
 /// @param size    [m]  of the smaller body

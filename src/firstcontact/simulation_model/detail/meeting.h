@@ -1,5 +1,5 @@
 /// @file
-/// Bodies that meet where they are put.
+/// Bodies that meet at their places.
 
 #pragma once
 
@@ -16,8 +16,9 @@ namespace firstcontact::detail {
 
 struct SimulationModel;
 
-/// A pair that is not proven apart by its margin, of which `concerns` says yes to one and not both
-/// are held where they are.
+/// Finds a pair that is not proven apart by its margin.
+///
+/// `concerns` is true for one of its bodies, and not both are held.
 [[nodiscard]] std::optional<BodyPair> find_meeting(const SimulationModel& model,
                                                    const std::vector<RigidState>& states,
                                                    const std::function<bool(std::size_t)>& concerns,

@@ -11,7 +11,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// Boxes are larger by this part of their size and place than they need be: rounding.
+/// [-]  Growth of boxes by rounding, by their size and place.
 constexpr double kSlack = 1e-12;
 
 }  // namespace
@@ -27,7 +27,7 @@ AlignedBox3d swept_box(const SimBody& body, const Pose& X_WB, const Move& move) 
   const Vector3d p_WC = X_WB.position + R * body.inertia.p_BC;
   const Vector3d centre = X_WB.position + R * body.box_B.center();
   const Vector3d half = R.cwiseAbs() * (0.5 * body.box_B.sizes());
-  // A point at distance r from C gets no farther than the chord, nor than r from C itself.
+  // A point at distance r from C moves no farther than the chord, nor than 2 r.
   const double turned = body.reach * std::min(2.0, move.rotation_vector.norm());
   const Vector3d around = half.array() + turned;
   const AlignedBox3d box(centre - around, centre + around);

@@ -1,5 +1,5 @@
 /// @file
-/// How a body moves over a part of a step.
+/// The motion of a body over a part of a step.
 
 #pragma once
 
@@ -13,9 +13,9 @@ namespace firstcontact::detail {
 
 struct SimBody;
 
-/// How a body is displaced over some time, from a pose.
+/// A displacement of a body over some time, from a pose.
 struct Move {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Of C.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Displacement of C.
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]
 
   [[nodiscard]] bool is_none() const { return !translation.any() && !rotation_vector.any(); }
@@ -24,7 +24,7 @@ struct Move {
   }
 };
 
-/// The motion over t in [0, 1] that makes the move.
+/// The motion over t in [0, 1] of a move.
 [[nodiscard]] Motion motion_of(const SimBody& body, const Pose& X_WB, const Move& move);
 
 /// A box around the thickened surface over the whole move.

@@ -21,15 +21,15 @@ using Eigen::Vector3d;
 
 /// The surface of one body around a contact.
 struct SurfaceThere {
-  Vector3d centre;                     // [m]  p_CP_W: of the point that goes with the body.
-  double radius = 0.0;                 // [m]  Of the surface about it, and half of the gap beyond.
-  std::optional<Vector3d> along = {};  // Of an edge.
-  double ring = 0.0;                   // [m]  Radius about that line; negative: of a hole.
-  std::optional<Matrix3d> squares = {};  // [m^2]  Of an ellipsoid: NormalSide.
+  Vector3d centre;                     // [m]  p_CP_W of the point that goes with the body.
+  double radius = 0.0;                 // [m]  Radius of the surface about it, with half of the gap.
+  std::optional<Vector3d> along = {};  // Direction of an edge.
+  double ring = 0.0;                   // [m]  Radius about that line; negative for a hole.
+  std::optional<Matrix3d> squares = {};  // [m^2]  For an ellipsoid: NormalSide.
   bool is_face = false;
 };
 
-/// Without its part along a line.
+/// The part of a vector across a line.
 Vector3d across(Vector3d v, const std::optional<Vector3d>& along) {
   return along ? Vector3d(v - v.dot(*along) * *along) : v;
 }
@@ -73,8 +73,8 @@ SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const V
 /// The normal after both surfaces moved.
 ///
 /// @param faces     whether the normal goes with A, with B
-/// @param by        of each body
-/// @param apart     [m]  from the centre on A to that on B, there
+/// @param by        rotation of each body
+/// @param apart     [m]  from the centre on A to that on B, after the motion
 /// @param radius    [m]  of both surfaces, negative where the larger one is a hole; 0: neither has
 ///                  one
 Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
@@ -106,13 +106,13 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
   if (radius == 0.0) {
     return n;
   }
-  // From the centre of a hole what is within it is in the direction out of it.
+  // From the centre of a hole, a body inside is in the direction out of the hole.
   Vector3d between = across(across(apart, along[0]), along[1]);
   between = radius < 0.0 ? Vector3d(-between) : between;
   return between.dot(n) > 0.0 ? between.stableNormalized() : n;
 }
 
-/// [m]  Of the surface at a contact, or the greatest of an ellipsoid; 0: it is flat.
+/// [m]  The radius of the surface at a contact, or the greatest of an ellipsoid; 0: it is flat.
 double radius_of(const ContactSide& side) {
   if (side.round.ellipsoid != nullptr) {
     return side.round.ellipsoid->radii.maxCoeff();
@@ -120,8 +120,8 @@ double radius_of(const ContactSide& side) {
   return side.round.circle != nullptr ? side.round.radius() : side.body->shape.radius();
 }
 
-/// [-]  How much the surface bends otherwise at a direction than that of the ball of its height, by
-/// that height.
+/// [-]  The difference of the surface's bend from that of a ball of the same height, by that
+/// height.
 double unlike_a_ball(const RoundEllipsoid& ellipsoid, const Vector3d& n_B) {
   const double height = ellipsoid.farthest(n_B).dot(n_B);
   const Matrix3d ball = height * (Matrix3d::Identity() - n_B * n_B.transpose());
@@ -155,13 +155,14 @@ double span_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& si
     if (sides[s].round.ellipsoid == nullptr) {
       continue;
     }
-    const Vector3d turning = (sides[1 - s].w - sides[s].w).cross(n);  // Of n, seen from the body.
+    const Vector3d turning = (sides[1 - s].w - sides[s].w).cross(n);  // Turn of n, as seen from the
+                                                                      // body.
     for (const double share : {0.0, 0.5, 1.0}) {
       const Vector3d there = (n + share * time * turning).normalized();
       const Vector3d n_B = sides[s].R_WB.transpose() * there;
       const double rate = unlike_a_ball(*sides[s].round.ellipsoid, n_B) * turning.norm();
       const double height = sides[s].round.ellipsoid->farthest(n_B).dot(n_B);
-      // The acceleration of the centre's height: its way bends by an eighth of it.
+      // The way of the centre bends by an eighth of the acceleration of its height.
       const double bending = height * rate * turning.norm();
       if (rate > 0.0) {
         longest = std::min(
@@ -189,7 +190,7 @@ bool turns_on_corner(const ManifoldPoint& touch, const std::array<ContactSide, 2
 double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
                    double time) {
   const std::array<double, 2> arms{contact.arm_A.norm(), contact.arm_B.norm()};
-  double speed = 0.0;  // [m/s]  At the contact, of both.
+  double speed = 0.0;  // [m/s]  Speed of both at the contact.
   double turning = 0.0;
   for (std::size_t s = 0; s < 2; ++s) {
     const double w = sides[s].w.norm();
@@ -219,7 +220,7 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
       surface_at(sides[0], touch.feature_A, contact.arm_A, n, distance),
       surface_at(sides[1], touch.feature_B, contact.arm_B, -n, distance)};
   std::array<Quaterniond, 2> by;
-  std::array<Vector3d, 2> centres;  // From the centres of mass, there.
+  std::array<Vector3d, 2> centres;  // Relative to the centres of mass, there.
   for (std::size_t s = 0; s < 2; ++s) {
     by[s] = turn(time * sides[s].w);
     centres[s] = by[s] * now[s].centre;

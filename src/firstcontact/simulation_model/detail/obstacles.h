@@ -1,5 +1,5 @@
 /// @file
-/// The bodies around free ones, which move as the scene has it, or not at all.
+/// The bodies around free ones; they follow the scene, or rest.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace firstcontact::detail {
 struct StepStart;
 struct SimulationModel;
 
-/// The fixed and scripted bodies of a step, by where they are in it.
+/// The fixed and scripted bodies of a step, by their places in it.
 class Obstacles {
  public:
   Obstacles(const SimulationModel& model, const StepStart& start);

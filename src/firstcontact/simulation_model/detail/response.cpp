@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Rows: the normal and two tangents that depend on nothing else.
+/// The frame of a contact, by rows: the normal and two tangents that depend on nothing else.
 Matrix3d frame_of(const Vector3d& normal) {
   Eigen::Index least = 0;
   normal.cwiseAbs().minCoeff(&least);
@@ -26,7 +26,7 @@ Matrix3d frame_of(const Vector3d& normal) {
   return frame;
 }
 
-/// The velocities and impulses between two solutions.
+/// The solution between two, by velocities and impulses.
 ContactSolution between(const ContactSolution& from, const ContactSolution& to, double share) {
   ContactSolution mixed = to;
   for (std::size_t b = 0; b < mixed.bodies.size(); ++b) {
@@ -48,7 +48,7 @@ ContactSolution between(const ContactSolution& from, const ContactSolution& to, 
   return mixed;
 }
 
-/// Or is tied to it.
+/// Whether a problem has a contact with a scripted body, or a tie to one.
 bool touches_scripted(const ContactProblem& problem, std::size_t members) {
   const auto is_scripted = [&](std::size_t place) {
     const ContactBody& body = problem.bodies[place];
@@ -119,7 +119,7 @@ ContactSolution project_impact(
   }
   ContactSolution bounced = project_on_contacts(problem, options);
   if (touches_scripted(problem, members)) {
-    return bounced;  // A body that nothing stops may add energy.
+    return bounced;  // A scripted body that nothing stops may add energy.
   }
   const auto energy_at = [&](double share) {
     const ContactSolution mixed = between(plastic, bounced, share);

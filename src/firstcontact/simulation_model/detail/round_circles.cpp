@@ -18,16 +18,17 @@ namespace {
 using Eigen::Vector3d;
 using Vertex = std::uint32_t;
 
-/// [-]  Corners are on a circle if they are as near to it, by its radius and by their coordinates:
+/// [-]  Greatest distance of a corner from its circle, by the radius, and by the coordinates, as
 /// files have few digits.
 constexpr double kOnCircle = 1e-5;
 constexpr double kOnCircleOfCoordinates = 0x1p-23;
-/// [-]  Edges of a polygon differ by less, by their length; and the angles between them, by theirs.
+/// [-]  Greatest difference of a polygon's edges, by their length; and of the angles between them,
+/// by theirs.
 constexpr double kSameEdge = 0.01;
-/// [rad]  Edges that turn by less are straight; by more are no circle.
+/// [rad]  Edges that turn by less are straight. Edges that turn by more than kSharp are no circle.
 constexpr double kStraight = 1e-4;
 constexpr double kSharp = 0.5;
-/// [-]  A surface faces away from an axis if the cosine between its normal and the radius is more.
+/// [-]  Least cosine between the normal and the radius of a surface that faces away from an axis.
 constexpr double kFacesAway = 0.3;
 
 /// The vertices that edges join to each vertex.
@@ -57,11 +58,11 @@ class JoinedVertices {
   }
 
  private:
-  std::vector<std::size_t> first_;  // Of vertex v: first_[v] to first_[v + 1].
+  std::vector<std::size_t> first_;  // Row of vertex v: first_[v] to first_[v + 1].
   std::vector<Vertex> to_;
 };
 
-/// Follows edges of one length that turn by one angle.
+/// Finds polygons of edges of one length that turn by one angle.
 class PolygonFinder {
  public:
   PolygonFinder(const Mesh& mesh, const JoinedVertices& joined, double sag)
@@ -80,7 +81,7 @@ class PolygonFinder {
     const Eigen::AngleAxisd turn(angle, normal.normalized());
     const auto most =
         static_cast<std::size_t>(2.0 * std::numbers::pi / angle * (1.0 + kSameEdge)) + 1;
-    // What bends otherwise, as a smooth surface and a helix do, ends after a few edges.
+    // Other curves, as smooth surfaces and helices have, end after a few edges.
     const double off = kSameEdge * angle * length +
                        4.0 * kOnCircleOfCoordinates * vertices_[b].cwiseAbs().maxCoeff();
     std::vector<Vertex> corners{a, b, c};
@@ -128,7 +129,7 @@ class PolygonFinder {
   }
 
  private:
-  /// Whether such edges are as near to their circle as they must be.
+  /// Whether such edges are near enough to their circle.
   [[nodiscard]] bool is_fine(double length, double angle) const {
     if (!(angle > kStraight && angle < kSharp)) {
       return false;
@@ -137,7 +138,7 @@ class PolygonFinder {
     return radius * (1.0 - std::cos(0.5 * angle)) <= std::max(sag_, kSagOfRadius * radius);
   }
 
-  /// The vertex at a place that an edge joins to another one.
+  /// The vertex at a place that an edge joins to a given one.
   [[nodiscard]] std::optional<Vertex> nearest(Vertex from, const Vector3d& place,
                                               double off) const {
     std::optional<Vertex> found;
@@ -164,7 +165,7 @@ bool are_of_one_cylinder(const RoundCircle& a, const RoundCircle& b) {
          between.cross(a.axis_B).norm() <= most * (a.outer + between.norm());
 }
 
-/// Whether a point is no deeper within a cylinder than its edges are.
+/// Whether a point is no deeper within a cylinder than the cylinder's edges.
 bool is_outside(const RoundCircle& circle, const Vector3d& point_B) {
   const Vector3d from = point_B - circle.centre_B;
   return from.cross(circle.axis_B).norm() >= (1.0 - kOnCircle) * circle.inner;
@@ -209,7 +210,7 @@ RoundCircles::RoundCircles(const Shape& shape, double sag) {
   find_sides(mesh);
 }
 
-/// On which sides of the circles there is a surface.
+/// Finds the sides of the circles that have a surface.
 void RoundCircles::find_sides(const Mesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     const auto& v = mesh.vertices;
@@ -234,7 +235,7 @@ double RoundCircles::sag() const {
   return greatest;
 }
 
-/// Of an edge or a triangle.
+/// The circle of an edge or of a triangle.
 OnCircle RoundCircles::between(const Shape& shape, std::span<const std::uint32_t> corners) const {
   const auto& v = shape.mesh().vertices;
   Vector3d middle = Vector3d::Zero();

@@ -14,32 +14,31 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [-]  The cosine between the normal and the axis of a circle that lies along the other body is
-/// less.
+/// [-]  Greatest cosine between the normal and the axis of a circle that lies along the other body.
 constexpr double kAlongSide = 0.1;
-/// [-]  Of places and radii: corners are on their circles but for this.
+/// [-]  Rounding of places and radii: corners are on their circles within it.
 constexpr double kRoundingOfCircles = 2e-5;
-/// [-]  The sine between the normal at a face and the axis of a circle on it is more. A disc that
-/// lies nearly flat has no lowest point: with the least turn it runs all around.
+/// [-]  Least sine between the normal at a face and the axis of a circle on it. A disc that lies
+/// nearly flat has no lowest point: with the least turn it runs all around.
 constexpr double kLeastAcross = 0.05;
 
 Vector3d across_axis(const Vector3d& v, const Vector3d& axis) { return v - v.dot(axis) * axis; }
 
-/// One body of a contact in the world.
+/// One body of a contact, in the world.
 struct Side {
-  RoundFeature feature = {};            // The circle that may be in place of it.
-  bool is_side = false;                 // Of a cylinder, not of a rim alone.
-  bool is_face = false;                 // And flat.
-  Vector3d axis = Vector3d::UnitZ();    // [-]  Of the circle.
+  RoundFeature feature = {};            // Circle that may replace its feature.
+  bool is_side = false;                 // Whether it is a cylinder's side, not only a rim.
+  bool is_face = false;                 // Whether it is a flat face.
+  Vector3d axis = Vector3d::UnitZ();    // [-]  Axis of the circle.
   Vector3d on_axis = Vector3d::Zero();  // [m]  The point of the axis beside the contact.
-  Vector3d radial = Vector3d::Zero();   // [m]  From there to the polygon.
+  Vector3d radial = Vector3d::Zero();   // [m]  Vector from there to the polygon.
   Vector3d core = Vector3d::Zero();     // [m]  The closest point, without the radius around it.
   double thickness = 0.0;               // [m]  That radius.
   std::optional<Vector3d> line = {};    // [-]  The direction of an edge, or of the axis.
 
   [[nodiscard]] bool is_round() const { return feature.circle != nullptr; }
 
-  /// A part of a rim counts as the edge or the corner that it is.
+  /// Makes the side of a rim the edge or the corner that it is.
   void make_plain(const std::optional<Vector3d>& edge) {
     feature = {};
     line = edge;
@@ -55,6 +54,8 @@ std::optional<Vector3d> edge_direction(const PlacedRound& body, const Feature& f
   return body.pose.rotation.normalized() * (v[b] - v[a]).stableNormalized();
 }
 
+/// The side of a contact at a feature.
+///
 /// @param point     [m]
 /// @param outwards  [-]  unit, out of the body
 /// @param most_sag  [m]  of a circle
@@ -83,8 +84,10 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
   return side;
 }
 
-/// Whether a contact is where a circle is known to be: on a cylinder, on a rim that stands on a
-/// face, or on a rim along a line that is parallel to its axis.
+/// Whether a contact is at a known circle.
+///
+/// That is on a cylinder, on a rim that stands on a face, or on a rim along a line parallel to its
+/// axis.
 bool may_be_round(const Side& side, const Side& other, const Vector3d& n) {
   if (side.is_side) {
     return true;
@@ -96,7 +99,7 @@ bool may_be_round(const Side& side, const Side& other, const Vector3d& n) {
          side.axis.cross(*other.line).norm() <= kCrossingEdges;
 }
 
-/// The normal out of a round side, where no face gives it.
+/// The normal out of a round side, where no face determines it.
 Vector3d outwards_of(const Side& side, const Side& other, const Vector3d& before) {
   if (other.line) {
     const Vector3d crossing = side.axis.cross(*other.line);
@@ -113,15 +116,15 @@ Vector3d outwards_of(const Side& side, const Side& other, const Vector3d& before
   return away.dot(before) > 0.0 ? away.normalized() : before;
 }
 
-/// The nearest point of a circle, and how far from there the polygon touches.
+/// The nearest point of a circle, and its distance from the contact of the polygon.
 struct OnRound {
-  Vector3d radial = Vector3d::Zero();  // [m]  From the axis.
-  double depth = 0.0;                  // [m]  Across the chord between both, and the sag.
-  double along = 0.0;                  // [m]  The chord.
-  double side = 0.0;                   // [m]  An edge of the polygon.
+  Vector3d radial = Vector3d::Zero();  // [m]  Vector from the axis.
+  double depth = 0.0;                  // [m]  Distance across the chord between both, and the sag.
+  double along = 0.0;                  // [m]  Length of the chord.
+  double side = 0.0;                   // [m]  Length of an edge of the polygon.
 };
 
-/// Nothing where the contact is elsewhere on the circle.
+/// The nearest point by the axis; nothing where the contact is elsewhere on the circle.
 std::optional<OnRound> nearest_from_axis(const Side& side, const Vector3d& outwards) {
   const Vector3d across = across_axis(outwards, side.axis);
   const Vector3d radial = side.feature.radius() * across.stableNormalized();
@@ -164,8 +167,8 @@ std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies,
     }
   }
   std::array<Vector3d, 2> points;
-  double nearer = 0.0;  // [m]  Than the polygons, at most.
-  double beside = 0.0;  // [m]  Of the points of two circles, at most.
+  double nearer = 0.0;  // [m]  Most by which the circles are nearer than the polygons.
+  double beside = 0.0;  // [m]  Greatest distance of the points of two circles.
   for (std::size_t s = 0; s < 2; ++s) {
     const Vector3d outwards = s == 0 ? n : Vector3d(-n);
     points[s] = sides[s].core + sides[s].thickness * outwards;

@@ -1,5 +1,5 @@
 /// @file
-/// Contacts of polygons as those of the circles that they stand for.
+/// Contacts of the circles that polygons stand for.
 
 #pragma once
 
@@ -10,16 +10,18 @@
 
 namespace firstcontact::detail {
 
-/// Replaces polygons of a contact by their circles: its closest points, normal and distance become
-/// those of the circles, where these are near to the point that is nearest to the other body.
+/// Replaces polygons of a contact by their circles.
 ///
-/// So are contacts on the sides of cylinders, on rims that stand on a face, and on rims along a
-/// line that is parallel to their axis. A circle is outside of an outer polygon, and inside of a
-/// hole. So the distance becomes smaller. Where it becomes larger, or smaller by more than the sag
-/// and the curve up to the nearest point explain, the contact stays as it is.
+/// The closest points, the normal and the distance become those of the circles, where these are
+/// near to the point that is nearest to the other body. That holds for contacts on the sides of
+/// cylinders, on rims that stand on a face, and on rims along a line parallel to their axis.
+///
+/// A circle is outside of an outer polygon, and inside of a hole, so the distance becomes smaller.
+/// The contact stays as it is where the distance becomes larger. It also stays where the distance
+/// becomes smaller by more than the sag and the curve up to the nearest point explain.
 ///
 /// @param most_sag  [m]  of a circle
-/// @returns  on which circles it is then
+/// @returns the circles on which the contact then is
 std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies, double most_sag,
                                        Contact& contact);
 

@@ -14,23 +14,25 @@ namespace firstcontact::detail {
 /// An ellipsoid along the axes of a body.
 struct RoundEllipsoid {
   Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d radii = Eigen::Vector3d::Ones();     ///< [m]  It passes through all corners.
-  double sag = 0.0;  ///< [m]  The triangles are no farther inside of it.
+  Eigen::Vector3d radii = Eigen::Vector3d::Ones();  ///< [m]  For the ellipsoid through all corners.
+  double sag = 0.0;  ///< [m]  Greatest depth of the triangles inside of it.
 
-  /// [m]  The point that is farthest along a direction, from the centre; axes of the body.
+  /// [m]  The farthest point along a direction, from the centre; axes of the body.
   [[nodiscard]] Eigen::Vector3d farthest(const Eigen::Vector3d& outwards_B) const {
     const Eigen::Vector3d stretched = radii.cwiseProduct(outwards_B);
     return radii.cwiseProduct(stretched / stretched.norm());
   }
 
-  /// [m^2]  The matrix S of its support function, sqrt(n . S n), where the body is turned.
+  /// [m^2]  The matrix S of its support function, sqrt(n . S n), with the body's rotation.
   [[nodiscard]] Eigen::Matrix3d squares(const Eigen::Matrix3d& R_WB) const {
     const Eigen::Matrix3d axes = R_WB * radii.asDiagonal();
     return axes * axes.transpose();
   }
 
-  /// [m]  How that point changes with the direction, a unit vector: the second derivative of the
-  /// support function. Its eigenvalues along the surface are the principal radii of curvature.
+  /// [m]  The change of that point with the direction, a unit vector: the second derivative of the
+  /// support function.
+  ///
+  /// Its eigenvalues along the surface are the principal radii of curvature.
   [[nodiscard]] Eigen::Matrix3d bend(const Eigen::Vector3d& outwards_B) const {
     const Eigen::Vector3d point = farthest(outwards_B);
     const Eigen::Matrix3d squares = radii.cwiseAbs2().asDiagonal();
@@ -38,7 +40,7 @@ struct RoundEllipsoid {
   }
 };
 
-/// The ellipsoid through the corners of a shape's triangles. Nothing where the shape is none.
+/// The ellipsoid through the corners of a shape's triangles; none where the shape is no ellipsoid.
 ///
 /// It is as much larger than the shape as the triangles are, so contacts of the triangles have
 /// room for it.

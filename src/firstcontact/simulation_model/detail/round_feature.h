@@ -1,5 +1,5 @@
 /// @file
-/// The curved surface on which a contact is.
+/// The curved surface of a contact.
 
 #pragma once
 
@@ -22,19 +22,20 @@ struct RoundFeature {
 
   [[nodiscard]] bool is_curved() const { return circle != nullptr || ellipsoid != nullptr; }
 
-  /// [m]  Of the circle; negative: of a hole, whose surface is on the other side of its axis.
+  /// [m]  Radius of the circle; negative for a hole, whose surface is on the other side of its
+  /// axis.
   [[nodiscard]] double radius() const { return is_hole ? -circle->inner : circle->outer; }
 };
 
-/// A body with or without circles, or that is an ellipsoid, where it is.
+/// A body at its place, with its circles or its ellipsoid.
 struct PlacedRound {
   const Shape* shape = nullptr;
   const RoundCircles* circles = nullptr;      ///< Null: none.
-  const RoundEllipsoid* ellipsoid = nullptr;  ///< Null: it is none.
+  const RoundEllipsoid* ellipsoid = nullptr;  ///< Null: it is no ellipsoid.
   Pose pose = {};
 };
 
-/// [m]  The point of a curved feature that is farthest along a direction, beside a point of it.
+/// [m]  The point of a curved feature that is farthest along a direction, beside one of its points.
 [[nodiscard]] Eigen::Vector3d farthest_on(const Pose& pose, const RoundFeature& feature,
                                           const Eigen::Vector3d& beside,
                                           const Eigen::Vector3d& outwards);

@@ -14,16 +14,16 @@ namespace firstcontact::detail {
 
 namespace {
 
-/// [-]  Of the contact distance: how far a script may be from a straight piece.
+/// [-]  Greatest distance of a script from a straight piece, by the contact distance.
 constexpr double kBendOfDistance = 0.5;
 
-/// [-]  Of a step: what is left of it after the scene is over counts from here on.
+/// [-]  Part of a step: a longer rest of it counts after the end of the scene.
 constexpr double kLeastRest = 1e-9;
 
-/// [-]  Of the tolerance of scripts: what moves by less stands still.
+/// [-]  Part of the tolerance of scripts; a body that moves by less stands still.
 constexpr double kLeastWay = 1e-6;
 
-/// [-]  Of a step, to find when a script came by; and steps from there.
+/// Samples of a step to find when a script came by, and steps of a search from there.
 constexpr int kSamples = 32;
 constexpr int kThirds = 24;
 
@@ -75,7 +75,7 @@ std::vector<double> Script::parts(double time, const std::vector<double>& behind
   return lengths;
 }
 
-/// Of bodies with one clock.
+/// The parts of a step for bodies with one clock.
 std::vector<double> Script::parts_of(const std::vector<ScriptedMotion>& motions,
                                      double time) const {
   const double from = share(time);
@@ -162,7 +162,7 @@ void Script::return_to(const std::vector<RigidState>& states, double time,
   }
 }
 
-/// [m]  How far at most a mover's points are from where its script has them.
+/// [m]  Bound of the distance of a mover's points from their places in its script.
 double Script::distance_at(std::size_t mover, const std::vector<RigidState>& states,
                            double time) const {
   double farthest = 0.0;
@@ -178,8 +178,9 @@ double Script::distance_at(std::size_t mover, const std::vector<RigidState>& sta
   return farthest;
 }
 
-/// [s]  When the script had a mover last where it is, in the last step. Of several times that are
-/// within a sample of each other any may be found.
+/// [s]  The time in the last step at which the script last had a mover at its present place.
+///
+/// If several such times are within a sample of each other, any of them may be found.
 ///
 /// @param stopped  [s]  no earlier than this
 std::optional<double> Script::came_by(std::size_t mover, const std::vector<RigidState>& states,

@@ -1,5 +1,5 @@
 /// @file
-/// What the scripted bodies of a simulation do in a step.
+/// The motions of the scripted bodies of a simulation in a step.
 
 #pragma once
 
@@ -23,43 +23,43 @@ struct SimulationModel;
 /// The motions of scripted bodies, over parts of steps in which they are straight.
 ///
 /// A piece of a run moves the body's origin on a line. Where a script bends away from that by more
-/// than half the contact distance, the step is taken in parts.
-///
-/// A body waits where it would crush what is in its way. Its script is behind then, and goes on as
-/// it was.
+/// than half the contact distance, the step is taken in parts. A body waits where it would crush an
+/// obstacle. Its script is then behind, and goes on later.
 class Script {
  public:
-  /// @param linked  outlives this
+  /// @param linked  outlives this object
   Script(const LinksAsBodies& linked, const SimulationModel& model);
 
-  /// [s]  How long each part of a step lasts: one, where all scripts are straight.
+  /// [s]  The duration of each part of a step; one part where all scripts are straight.
   ///
   /// @param time    [s]  at which the step begins
-  /// @param behind  [s]  by so much the script of each body is
+  /// @param behind  [s]  time by which the script of each body is behind
   /// @throws std::invalid_argument  if a script moves too wildly for the step
   [[nodiscard]] std::vector<double> parts(double time, const std::vector<double>& behind) const;
 
-  /// What each body does in a part; nothing but for scripted ones that do not wait.
+  /// The move of each body in a part; zero except for scripted bodies that do not wait.
   ///
   /// @param states  at the begin; bodies that are off their script return to it
-  /// @param behind  [s]  by so much the script of each body is
-  /// @param waits   of each body: it stands still
+  /// @param behind  [s]  time by which the script of each body is behind
+  /// @param waits   for each body whether it stands still
   [[nodiscard]] std::vector<Move> moves(const std::vector<RigidState>& states, double time,
                                         double length, const std::vector<double>& behind,
                                         const std::vector<bool>& waits) const;
 
-  /// Lets scripted bodies that move wait in the rest of a step, all links of a robot together.
+  /// Lets moving scripted bodies wait in the rest of a step, all links of a robot together.
   ///
   /// @param bodies  in any order
   /// @param moves   of the part
-  /// @returns  whether any moved
+  /// @returns whether any of them moved
   bool wait(const std::vector<std::size_t>& bodies, const std::vector<Move>& moves,
             std::vector<bool>& waits) const;
 
-  /// Scripts that led bodies back, in the last step, to where they had to wait go on from there:
-  /// a press opens when its script has it open.
+  /// Lets scripts go on that came back, in the last step, to the places where their bodies had to
+  /// wait.
   ///
-  /// @param behind  [s]  at `time`; less, where a script came by
+  /// So a press opens when its script has it open.
+  ///
+  /// @param behind  [s]  at `time`; becomes less where a script came back
   void return_to(const std::vector<RigidState>& states, double time,
                  std::vector<double>& behind) const;
 
@@ -77,8 +77,9 @@ class Script {
   double tolerance_;  // [m]
   double step_;       // [s]
   std::vector<std::size_t> bodies_;
-  std::vector<ScriptedMotion> motions_;  // Of each of them.
-  std::vector<std::size_t> movers_;      // Of each of them: those of the same one move together.
+  std::vector<ScriptedMotion> motions_;  // For each of them.
+  std::vector<std::size_t> movers_;  // For each of them its mover; bodies of the same mover move
+                                     // together.
 };
 
 }  // namespace firstcontact::detail

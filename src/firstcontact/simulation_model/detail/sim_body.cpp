@@ -38,7 +38,7 @@ Inertia inertia_of(const FreeBody& free, const Shape& shape) {
     inertia.about_C_B = *free.inertia;
     return inertia;
   }
-  // Another centre of mass than the solid's: the same moments about it (the given one is trusted).
+  // A given centre of mass is trusted: the moments of the solid then count about it.
   inertia.about_C_B = density * solid.about_C;
   return inertia;
 }
@@ -56,7 +56,8 @@ void find_reach(SimBody& body) {
   body.box_B = Eigen::AlignedBox3d(body.box_B.min() - thickness, body.box_B.max() + thickness);
 }
 
-/// Where there are links only, the smallest of them; null without free bodies.
+/// The smallest free body, or where there are links only, the smallest of them; null without free
+/// bodies.
 const SimBody* smallest_free_body(const std::vector<SimBody>& bodies) {
   const SimBody* smallest = nullptr;
   for (const SimBody& body : bodies) {

@@ -28,14 +28,14 @@ struct Scene;
 namespace firstcontact::detail {
 
 enum class BodyKind {
-  fixed,     ///< Rests where the scene puts it.
-  scripted,  ///< Moves as the scene says.
+  fixed,     ///< Rests at its place in the scene.
+  scripted,  ///< Follows its motion in the scene.
   free,      ///< Moves under forces and contacts, by itself or as a link of a robot.
 };
 
 /// A geometry of a link as a body of its own.
 struct LinkBody {
-  std::size_t robot = 0;  ///< Of the world.
+  std::size_t robot = 0;  ///< Index in the simulation model.
   std::size_t link = 0;
   Pose X_LB = {};
 };
@@ -43,12 +43,12 @@ struct LinkBody {
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
-  std::optional<RoundEllipsoid> ellipsoid = {};  ///< That the shape stands for.
+  std::optional<RoundEllipsoid> ellipsoid = {};  ///< Ellipsoid that the shape stands for.
   /// The inertia of a free body; of another, or of a link body, only p_BC, its pivot.
   Inertia inertia = {};
   std::optional<LinkBody> link_body = {};
   double reach = 0.0;              ///< [m]  From C to the farthest point of the thickened surface.
-  Eigen::AlignedBox3d box_B = {};  ///< [m]  Around it, in the body frame.
+  Eigen::AlignedBox3d box_B = {};  ///< [m]  Box around the surface, in the body frame.
   std::vector<TimedForce> forces = {};
 };
 
@@ -61,13 +61,15 @@ struct MeanForce {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]
 };
 
+/// The mean of the given forces on a body over a span.
+///
 /// @param from  [s]  of the simulation
 /// @param span  [s]
 [[nodiscard]] MeanForce mean_force(const SimBody& body, double from, double span);
 
-/// The bodies of a scene that has a simulation, those of its links among them.
+/// The bodies of a scene that has a simulation, link bodies included.
 ///
-/// @param scene  the one of which `linked` was made
+/// @param scene  the scene of which `linked` was made
 /// @throws std::invalid_argument  names the body whose mass cannot be found, and the mend
 [[nodiscard]] std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked);
 
@@ -77,10 +79,10 @@ struct MeanForce {
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
 
-/// What one should know of a contact distance: it is large for the smallest free body, or so small
-/// that steps take long.
+/// The warnings about a contact distance: it is large for the smallest free body, or so small that
+/// steps take long.
 ///
-/// @throws std::invalid_argument, with the mend, if it is larger than that body, or so small that
+/// @throws std::invalid_argument  with the mend, if it is larger than that body, or so small that
 ///         coordinates round by too much of it for a proof
 [[nodiscard]] std::vector<std::string> check_contact_distance(double contact_distance,
                                                               const LoadedScene& linked,
@@ -91,19 +93,20 @@ class PairLaws {
  public:
   explicit PairLaws(const LoadedScene& loaded);
 
-  /// Nothing where the pair does not touch.
+  /// The margin of a pair; none where the pair does not touch.
   [[nodiscard]] std::optional<double> margin(const BodyPair& pair) const {
     return rules_->margin(pair);
   }
-  /// [m]  No pair has a greater one.
+  /// [m]  The greatest margin of all pairs.
   [[nodiscard]] double greatest_margin() const { return greatest_margin_; }
   [[nodiscard]] double friction(const BodyPair& pair) const;
   [[nodiscard]] double restitution(const BodyPair& pair) const;
-  /// [m/s]  How fast the surface of a body runs along it; axes of the body frame.
+  /// [m/s]  The velocity at which the surface of a body runs along it; axes of the body frame.
   [[nodiscard]] const Eigen::Vector3d& belt(std::size_t body) const { return belts_[body]; }
 
-  /// Change what is given.
+  /// Changes the given values of a body's surface.
   void set_surface(std::size_t body, const Surface& surface);
+  /// Changes the given values of a pair's surface.
   void set_pair_surface(const BodyPair& pair, const Surface& surface);
 
  private:
@@ -111,8 +114,8 @@ class PairLaws {
 
   const PairRules* rules_;
   double greatest_margin_ = 0.0;
-  std::vector<double> friction_;     // Of each body.
-  std::vector<double> restitution_;  // Of each body.
+  std::vector<double> friction_;     // One for each body.
+  std::vector<double> restitution_;  // One for each body.
   std::vector<Eigen::Vector3d> belts_;
   std::unordered_map<std::uint64_t, Surface> pairs_;
 };

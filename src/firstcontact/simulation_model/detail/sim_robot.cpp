@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The positions over time that a trajectory gives a coordinate, and their rates, at every step.
+/// The positions over time of a coordinate on a trajectory, and their rates, at every step.
 struct SampledPath {
   std::vector<TimedNumber> positions = {};  // [rad or m]
   std::vector<TimedNumber> rates = {};      // [rad/s or m/s]
@@ -136,7 +136,8 @@ class RobotMaker {
     }
   }
 
-  /// The joint's own; 0 as the greatest effort is a gap in a file, not a joint without strength.
+  /// The limits of a joint. A greatest effort of 0 is a gap in a file, not a joint without
+  /// strength.
   static JointLimits limits_of(const Joint& joint, double q) {
     JointLimits limits = joint.limits;
     if (q < limits.lower.value_or(q) || q > limits.upper.value_or(q)) {
@@ -149,7 +150,7 @@ class RobotMaker {
     return limits;
   }
 
-  /// What joints that mimic one have of their own acts on its coordinate.
+  /// Adds the laws of joints that mimic one to its coordinate.
   ///
   /// @param q  [rad or m]  where the joint starts
   void take_followers(std::size_t leader, double q, JointLaw& law) const {
@@ -169,7 +170,7 @@ class RobotMaker {
     }
   }
 
-  /// Narrows limits of a coordinate to those of multiplier q + offset.
+  /// Narrows limits of a coordinate to those for multiplier q + offset.
   static void narrow(const JointLimits& there, double multiplier, double offset,
                      JointLimits& limits) {
     const auto here = [&](double limit) { return (limit - offset) / multiplier; };

@@ -1,5 +1,5 @@
 /// @file
-/// A robot of a simulation: its mechanism, and what drives, brakes and stops its joints.
+/// A robot of a simulation: its mechanism, and the drives, brakes and stops of its joints.
 
 #pragma once
 
@@ -23,7 +23,7 @@ namespace firstcontact::detail {
 
 struct SimRobot {
   std::string name;
-  std::size_t number;  ///< Of the scene.
+  std::size_t number;  ///< Index in the scene.
   Mechanism mechanism;
   std::vector<JointLaw> laws;
   MechanismState start;
@@ -31,24 +31,27 @@ struct SimRobot {
   /// Whether any joint has a motor, limits, damping or friction.
   [[nodiscard]] bool is_driven() const;
 
-  /// Whether its joints take and give no energy in a motion: nothing brakes or drives them, and
-  /// none is at its limits.
+  /// Whether its joints take and give no energy in a motion.
+  ///
+  /// Then nothing brakes or drives them, and none is at its limits.
   [[nodiscard]] bool is_passive(const Eigen::VectorXd& positions) const;
 
-  /// How many motors there are, and how many of them no effort bounds: they answer impacts.
+  /// The number of motors.
   [[nodiscard]] std::size_t motor_count() const;
+  /// The number of motors that no effort bounds; they answer impacts.
   [[nodiscard]] std::size_t rigid_motor_count() const;
 
-  /// The stops that keep displacements [rad or m] in place of velocities within limits.
+  /// The stops that keep displacements [rad or m], instead of velocities, within limits.
   [[nodiscard]] std::vector<JointDrive> stops(const MechanismState& state,
                                               std::size_t mechanism_number) const;
 
-  /// [-]  How far the positions of a plan may be followed before a coordinate leaves its limits.
+  /// [-]  The share of a plan that may be followed before a coordinate leaves its limits.
   [[nodiscard]] double share_within_limits(const MechanismState& from,
                                            const Eigen::VectorXd& to) const;
 
-  /// The drives of an impact, which takes no time: what no bounded effort answers. Joints at their
-  /// limits stop there, and motors without bound keep their velocity; these come first.
+  /// The drives of an impact, which takes no time, so that no bounded effort acts.
+  ///
+  /// Motors without bound keep their velocity; these come first. Joints at their limits stop there.
   [[nodiscard]] std::vector<JointDrive> drives_at_impact(const MechanismState& state,
                                                          std::size_t mechanism) const;
 };

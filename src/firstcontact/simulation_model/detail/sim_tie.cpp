@@ -32,7 +32,7 @@ Pose inverse_of(const Pose& X_AB) {
   return {-(R_BA * X_AB.position), R_BA};
 }
 
-/// simulation.ties[2] (a pin of "a" and the world)
+/// The name of a tie: simulation.ties[2] (a pin of "a" and the world).
 std::string tie_name(const SimTie& tie, std::size_t number,
                      const std::function<std::string(std::size_t)>& name_of) {
   const auto end = [&](const TieEnd& tied) {
@@ -43,7 +43,7 @@ std::string tie_name(const SimTie& tie, std::size_t number,
          end(tie.ends[1]);
 }
 
-/// What places one tie wrong; empty if nothing does.
+/// The defect of a tie's place; empty if there is none.
 std::string wrong_place(const SimTie& tie, const TiePlace& place, double slack) {
   const double apart = place.between().norm();
   if (tie.is_joint() && apart > slack) {
@@ -116,7 +116,7 @@ class TieMaker {
     return tie;
   }
 
-  /// In the frame of the body.
+  /// A tied point in the frame of the body.
   [[nodiscard]] Vector3d point_of(const Tie& tie, std::size_t side) const {
     if (tie.points[side]) {
       return *tie.points[side];

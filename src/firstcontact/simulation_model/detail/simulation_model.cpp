@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
     const std::vector<SimBody>& bodies, double slack) {
-  // Bodies that share their shape share what is known of it.
+  // Bodies that share their shape share its neighbours.
   std::unordered_map<const Hierarchy*, std::shared_ptr<const SurfaceNeighbours>> known;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> all;
   for (const SimBody& body : bodies) {
@@ -26,7 +26,8 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
   return all;
 }
 
-/// Facets that stand out by less than the tolerance of contacts make no polygon.
+/// The circles of the bodies. Facets that stand out by less than the tolerance of contacts make no
+/// polygon.
 std::vector<std::shared_ptr<const RoundCircles>> round_circles_of(
     const std::vector<SimBody>& bodies, double sag) {
   std::unordered_map<const Hierarchy*, std::shared_ptr<const RoundCircles>> known;
@@ -55,7 +56,7 @@ std::vector<std::vector<std::size_t>> ties_of_bodies(const std::vector<SimTie>& 
   return of;
 }
 
-/// [m]  Of the circles of a body, or of the ellipsoid that it is.
+/// [m]  The greatest sag of the circles of a body, or of the ellipsoid that it is.
 double sag_of(const SimulationModel& model, std::size_t body) {
   const std::optional<RoundEllipsoid>& ellipsoid = model.bodies[body].ellipsoid;
   return ellipsoid ? ellipsoid->sag : model.round_circles[body]->sag();

@@ -33,22 +33,22 @@ struct SimulationModel {
   PairLaws laws;
   bool has_pairs;  ///< Whether there is any pair to keep apart.
   ContactDistances distances;
-  std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
-  std::vector<std::shared_ptr<const RoundCircles>> round_circles;    ///< Of each body.
+  std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< One for each body.
+  std::vector<std::shared_ptr<const RoundCircles>> round_circles;    ///< One for each body.
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
   ImpactLaw impacts;
-  std::size_t events;  ///< In a step, at most.
+  std::size_t events;  ///< Most events in a step.
   std::vector<SimTie> ties;
-  std::vector<std::vector<std::size_t>> ties_of;  ///< Of each body; empty without any ties.
+  std::vector<std::vector<std::size_t>> ties_of;  ///< For each body; empty without any ties.
 };
 
-/// [m]  A polygon of two bodies is a circle in their contacts if it has no greater sag.
+/// [m]  The greatest sag of a polygon that counts as a circle in the contacts of two bodies.
 [[nodiscard]] double most_sag_of(const SimulationModel& model, const BodyPair& bodies);
 
-/// [m]  Of two bodies beyond this distance not even circles are within the band.
+/// [m]  The distance of two bodies beyond which not even circles are within the band.
 [[nodiscard]] double near_of(const SimulationModel& model, const BodyPair& bodies);
 
-/// [m]  Of two bodies, how far the smaller one reaches.
+/// [m]  The reach of the smaller of two bodies.
 [[nodiscard]] double smaller_reach(const SimulationModel& model, const BodyPair& bodies);
 
 }  // namespace firstcontact::detail

@@ -1,5 +1,5 @@
 /// @file
-/// What a step of a simulation begins with.
+/// The data with which a step of a simulation begins.
 
 #pragma once
 
@@ -15,20 +15,20 @@ namespace firstcontact::detail {
 
 struct SimulationModel;
 
-/// What a step of a simulation begins with, for every body.
+/// The data with which a step begins, for every body.
 struct StepStart {
   double time = 0.0;                    ///< [s]  Since the simulation began.
-  double h = 0.0;                       ///< [s]  How long the step is to last.
+  double h = 0.0;                       ///< [s]  Planned duration of the step.
   std::vector<RigidState> states = {};  ///< Velocities of free bodies.
-  std::vector<Move> scripted = {};      ///< Over the step; zero but for scripted bodies.
+  std::vector<Move> scripted = {};      ///< Moves over the step; zero except for scripted bodies.
   std::vector<MechanismState> robots = {};
-  std::vector<bool> rests = {};   ///< Of every body: found at rest in the step before.
-  std::vector<bool> waits = {};   ///< Of every body: its script stands still over the step.
+  std::vector<bool> rests = {};  ///< For every body: whether it was at rest in the step before.
+  std::vector<bool> waits = {};  ///< For every body: whether its script stands still over the step.
   std::vector<bool> waited = {};  ///< Likewise, in the step before.
-  bool begins_step = true;        ///< Or it is a later part of a step in which scripts bend.
+  bool begins_step = true;        ///< False for a later part of a step in which scripts bend.
 };
 
-/// Where a scripted or fixed body is, a share of the step after its begin.
+/// The pose of a scripted or fixed body, a share of the step after its begin.
 [[nodiscard]] Pose scripted_pose(const SimulationModel& model, const StepStart& start,
                                  std::size_t body, double share);
 

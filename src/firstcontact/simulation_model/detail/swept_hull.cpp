@@ -15,11 +15,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [-]  Of all places and ways that are added up. Of those, rotations err by a few 2^-52, the
-/// matrix between (of norm 3 at most) by as many more, and the gap by 2^-48.
+/// [-]  Rounding, by the sum of all places and ways. Rotations err by a few 2^-52, the matrix
+/// between them (of norm 3 at most) by as many more, and the gap by 2^-48.
 constexpr double kRounding = 0x1p-44;
 
-/// [m]  How far a point of B may be from its parabola, as A sees it, roundings included.
+/// [m]  Bound of the distance of a point of B from its parabola, as seen from A, roundings
+/// included.
 double error_seen(const SweptHull& A, const SweptHull& B) {
   const double speed = (B.translation - A.translation).norm();
   const double w = A.rate;

@@ -1,5 +1,5 @@
 /// @file
-/// What a program may not ask of a simulation.
+/// Refusals of commands that a program may not give to a simulation.
 
 #pragma once
 
@@ -21,17 +21,17 @@ struct SimRobot;
 /// Whether a quaternion can be made a unit one.
 [[nodiscard]] bool is_rotation(const Eigen::Vector4d& q);
 
-/// What keeps a mechanism from being in a state; empty if nothing does.
+/// The reason why a mechanism cannot be in a state; empty if it can.
 [[nodiscard]] std::string wrong_state(const Mechanism& mechanism, const MechanismState& state);
 
-/// Which joint positions would place beyond its limits, by more than a simulation does; empty if
-/// they place none.
+/// The joint that positions would place beyond its limits, by more than a simulation does; empty if
+/// there is none.
 [[nodiscard]] std::string beyond_limits(const SimRobot& robot, const Eigen::VectorXd& positions);
 
-/// The first thing that is wrong with a surface; empty if nothing is.
+/// The first defect of a surface; empty if there is none.
 [[nodiscard]] std::string wrong_surface(const Surface& surface);
 
-/// The first thing that is wrong with a motor; empty if nothing is.
+/// The first defect of a motor; empty if there is none.
 [[nodiscard]] std::string wrong_motor(const JointMotor& motor);
 
 }  // namespace firstcontact::detail
