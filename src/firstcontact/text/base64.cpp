@@ -20,7 +20,7 @@ constexpr std::array<std::uint8_t, 256> digit_values() {
   return values;
 }
 
-/// Without one or two '=' that fill up a group of four.
+/// The text without one or two '=' that fill up a group of four.
 std::string_view without_padding(std::string_view text) {
   for (int i = 0; i < 2 && text.size() % 4 != 1 && text.ends_with('='); ++i) {
     text.remove_suffix(1);

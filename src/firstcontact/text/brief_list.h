@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// "a, b and 7 more".
+/// Lists some names: "a, b and 7 more".
 [[nodiscard]] inline std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 9;
   std::string text;

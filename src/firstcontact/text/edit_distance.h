@@ -1,5 +1,5 @@
 /// @file
-/// How far two words are apart: finds what a misspelt name means.
+/// The distance of two words, to find the meaning of a misspelt name.
 
 #pragma once
 
@@ -8,8 +8,10 @@
 
 namespace firstcontact::detail {
 
-/// The least number of letters to insert, remove, replace or swap with a neighbour (the optimal
-/// string alignment distance). Takes time in proportion to the product of the lengths.
+/// The least number of letters to insert, remove, replace or swap with a neighbour.
+///
+/// This is the optimal string alignment distance. The time is proportional to the product of the
+/// lengths.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace firstcontact::detail

@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// In lower case, without the point.
+/// The extension of a file in lower case, without the point.
 inline std::string file_extension(const std::filesystem::path& path) {
   const std::string extension = lower(path.extension().string());
   return extension.empty() ? extension : extension.substr(1);

@@ -11,7 +11,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// What was found, for a message.
+/// A description of the value that was found, for a message.
 struct Description {
   std::string operator()(JsonNull) const { return "null"; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
@@ -24,9 +24,9 @@ struct Description {
   std::string operator()(const JsonText&) const { return "JSON"; }
 };
 
-/// How far a word is from a known one; half a word that was meant whole is near.
+/// The distance of a word from a known one; the first half of a known word is near.
 std::size_t distance(std::string_view word, std::string_view known) {
-  constexpr std::size_t kLongestWord = 60;  // Nothing longer is near; and the search is quadratic.
+  constexpr std::size_t kLongestWord = 60;  // No longer word is near, and the search is quadratic.
   if (word.size() >= 4 && known.starts_with(word)) {
     return 1;
   }
@@ -37,7 +37,7 @@ bool holds(const std::vector<std::string_view>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Says of a word that is not known what is meant, or what there is.
+/// Suggests a known word in place of an unknown one, or lists all.
 std::string mend(std::string_view word, const KnownKeys& known) {
   if (holds(known.later, word)) {
     return "this version does not have " + in_quotes(word) + " yet; it has " + listed(known.keys);
@@ -51,7 +51,7 @@ std::string mend(std::string_view word, const KnownKeys& known) {
 
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& words) {
   std::string_view nearest;
-  std::size_t least = word.size() / 3 + 2;  // More changes than this make another word.
+  std::size_t least = word.size() / 3 + 2;  // More changes than these make another word.
   for (const std::string_view candidate : words) {
     const std::size_t changes = distance(word, candidate);
     if (changes < least && changes < candidate.size()) {

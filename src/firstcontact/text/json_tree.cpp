@@ -22,7 +22,7 @@ std::string in_brackets(std::string_view inside) {
   return text;
 }
 
-/// `rest` is the place below this one: it follows a dot, unless it is an element of an array.
+/// Joins places. `rest` follows a dot, unless it is an element of an array.
 std::string join(const std::string& place, const std::string& rest) {
   return place + (rest.empty() || rest.front() == '[' ? "" : ".") + rest;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// JSON as a tree whose values know their line and can tell their place, so that errors name both.
+/// JSON as a tree. Values have a line and a place in the tree, so that errors name both.
 
 #pragma once
 
@@ -19,8 +19,9 @@ struct JsonNull {};
 using JsonArray = std::vector<JsonValue>;
 using JsonObject = std::vector<JsonMember>;  // In the order of the text.
 
-/// JSON that is written already: what is very long takes ten times the memory as a tree. No reader
-/// makes one.
+/// JSON that is written already, as a tree of a long text takes ten times the memory.
+///
+/// No reader makes one.
 struct JsonText {
   std::string text;
 };
@@ -30,7 +31,7 @@ using JsonVariant =
 
 struct JsonValue {
   JsonVariant value;
-  std::size_t line = 0;  ///< On which it begins; 0 if it was not read from a text.
+  std::size_t line = 0;  ///< Line on which it begins; 0 if it was not read from a text.
 };
 
 struct JsonMember {
@@ -42,8 +43,9 @@ struct JsonMember {
 [[nodiscard]] FIRSTCONTACT_API const JsonValue* find(const JsonObject& object,
                                                      std::string_view key);
 
-/// Where a value stands below the root: "bodies[2].motion"; empty for the root itself.
-/// Searches the tree, so that nobody has to carry places along until there is an error.
+/// The place of a value below the root: "bodies[2].motion"; empty for the root itself.
+///
+/// It searches the tree, so that no places have to be kept before there is an error.
 ///
 /// @param value  the very object in the tree, not a copy
 [[nodiscard]] FIRSTCONTACT_API std::string place_of(const JsonValue& value, const JsonValue& root);

@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// The bytes of a regular file, mapped read-only for as long as this lives.
+/// The bytes of a regular file, mapped read-only for the lifetime of this object.
 class MappedFile {
  public:
   /// @throws ParseError if the file cannot be opened or is not a regular file

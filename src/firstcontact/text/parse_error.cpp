@@ -3,7 +3,7 @@
 namespace firstcontact {
 namespace {
 
-// The promise is one line, even where a name has a line break in it.
+// Makes one line of a text, as promised, even where a name has a line break in it.
 std::string in_one_line(std::string text) {
   for (char& c : text) {
     if (c == '\n' || c == '\r') {

@@ -41,7 +41,7 @@ void append_utf8(std::uint32_t code, std::string& out) {
   }
 }
 
-/// Recursive descent; its depth is limited.
+/// Parses by recursive descent, whose depth is limited.
 class JsonParser {
  public:
   JsonParser(std::string_view text, const std::string& source, std::size_t first_line)
@@ -93,7 +93,7 @@ class JsonParser {
     return found;
   }
 
-  /// What stands here, for a message.
+  /// The word at the present place, for a message.
   [[nodiscard]] std::string next_word() const {
     if (rest_.empty()) {
       return "the end of the text";
@@ -257,7 +257,7 @@ class JsonParser {
     rest_.remove_prefix(1);
   }
 
-  /// The character of \uXXXX, or of the two halves \uD8XX\uDCXX.
+  /// Reads the character of \uXXXX, or of the two halves \uD8XX\uDCXX.
   std::uint32_t code_point() {
     const std::uint32_t unit = hexadecimal();
     if (unit < 0xd800 || unit >= 0xe000) {
@@ -290,7 +290,7 @@ class JsonParser {
     return static_cast<std::size_t>(end - text.begin());
   }
 
-  /// The length of the number here in the grammar of JSON; 0 if there is none.
+  /// The length of the number at the present place by the grammar of JSON; 0 if there is none.
   [[nodiscard]] std::size_t number_length() const {
     std::size_t length = at('-') ? 1 : 0;
     const auto here = [&] { return length < rest_.size() ? rest_[length] : '\0'; };

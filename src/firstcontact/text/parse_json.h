@@ -14,8 +14,10 @@ namespace firstcontact::detail {
 
 inline constexpr std::size_t kMaximumJsonDepth = 64;
 
-/// Parses one JSON value that fills the text, whatever the locale. Strict: UTF-8, no comments,
-/// no repeated keys, numbers that fit a double, at most kMaximumJsonDepth containers deep.
+/// Parses one JSON value that fills the text, whatever the locale.
+///
+/// The parser is strict: UTF-8, no comments, no repeated keys, numbers that fit a double, at most
+/// kMaximumJsonDepth containers deep.
 ///
 /// @param source      names the text in errors
 /// @param first_line  the line of the source on which the text begins

@@ -33,7 +33,7 @@ std::optional<double> decimal(std::string_view text) {
   }
   const std::size_t first_digit = text.find_first_not_of("-.");
   if (first_digit == std::string_view::npos || text[first_digit] < '0' || text[first_digit] > '9') {
-    return std::nullopt;  // std::from_chars knows "nan" and "inf", too.
+    return std::nullopt;  // std::from_chars() also reads "nan" and "inf".
   }
   double value = 0.0;
   const auto [end, error] = read_double(text.data(), text.data() + text.size(), value);
@@ -58,13 +58,13 @@ JsonVariant plain_scalar(const std::string& text) {
   return text;
 }
 
-/// How large a value is.
+/// The size of a value.
 struct Extent {
   std::size_t values = 1;
-  std::size_t depth = 0;  ///< Lists and maps inside each other.
+  std::size_t depth = 0;  ///< Depth of lists and maps inside each other.
 };
 
-/// Recurses no deeper than kMaximumJsonDepth, as all values do.
+/// The extent of a value; recurses no deeper than kMaximumJsonDepth, as all values do.
 Extent extent_of(const JsonValue& value) {
   Extent extent;
   const auto add = [&extent](const JsonValue& inside) {
@@ -87,11 +87,11 @@ Extent extent_of(const JsonValue& value) {
 /// Builds the tree from what yaml-cpp finds.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  /// @param bytes  of the text: it cannot hold more values of its own
+  /// @param bytes  size of the text, which bounds the number of its own values
   TreeBuilder(const std::string& source, std::size_t bytes)
       : source_(source), most_values_(bytes + kMaximumRepeatedYamlValues) {}
 
-  /// None where the document held nothing.
+  /// Returns the tree; none where the document was empty.
   std::optional<JsonValue> take() { return std::exchange(root_, std::nullopt); }
 
   void OnDocumentStart(const YAML::Mark&) override { anchors_.clear(); }
@@ -136,7 +136,7 @@ class TreeBuilder final : public YAML::EventHandler {
     JsonValue value;
     YAML::anchor_t anchor;
     YAML::Mark mark;
-    std::optional<std::string> key;  // Of the member to come, in an object.
+    std::optional<std::string> key;  // Key of the next member of an object.
     std::set<std::string> keys;
   };
 
@@ -189,7 +189,7 @@ class TreeBuilder final : public YAML::EventHandler {
            !open_.back().key;
   }
 
-  /// Puts a whole value where it belongs.
+  /// Puts a whole value at its place.
   void finish(const YAML::Mark& mark, YAML::anchor_t anchor, JsonValue value) {
     if (anchor != 0) {
       reserve(mark, extent_of(value).values);
@@ -241,7 +241,7 @@ bool holds_nothing(const std::optional<JsonValue>& value) {
   return !value || std::holds_alternative<JsonNull>(value->value);
 }
 
-/// How many documents the text can have: lines that begin with "---" or "..." separate them.
+/// The greatest number of documents of a text: lines that begin with "---" or "..." separate them.
 std::size_t most_documents(std::string_view text) {
   std::size_t count = 1;
   for (std::size_t line = 0; line < text.size();) {
@@ -259,7 +259,7 @@ JsonValue only_document(std::string_view text, const std::string& source) {
   YAML::Parser parser(stream);
   TreeBuilder builder(source, text.size());
   std::optional<JsonValue> document;
-  // On some texts yaml-cpp finds one empty document after the other, for ever.
+  // For some texts yaml-cpp finds one empty document after the other, without end.
   std::size_t left = most_documents(text) + 1;
   while (parser.HandleNextDocument(builder)) {
     std::optional<JsonValue> next = builder.take();
@@ -284,7 +284,7 @@ bool is_control(char c) {
   return (code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7f;
 }
 
-/// UTF-8, without the control characters that YAML excludes and yaml-cpp gives meanings of its own.
+/// Requires UTF-8 without the control characters that YAML excludes and yaml-cpp interprets.
 void require_characters(std::string_view text, const std::string& source) {
   const std::size_t not_utf8 = find_not_utf8(text);
   const auto control = std::find_if(text.begin(), text.end(), is_control);

@@ -12,14 +12,16 @@
 
 namespace firstcontact::detail {
 
-/// Beyond what stands in the text itself, its aliases and anchors repeat no more values.
+/// Most values that aliases and anchors repeat, beyond those that stand in the text.
 inline constexpr std::size_t kMaximumRepeatedYamlValues = 1'000'000;
 
-/// Parses the one YAML document of a text that holds something, whatever the locale. UTF-8, keys
-/// are words and not repeated, at most kMaximumJsonDepth containers deep; empty documents before
-/// and after it, as `rostopic echo` prints them, are passed over.
+/// Parses the one YAML document of a text that has contents, whatever the locale.
 ///
-/// Plain scalars are what JSON knows: null (and ~), true and false (as in YAML 1.2; also with a
+/// The text is UTF-8. Keys are words and not repeated, and at most kMaximumJsonDepth containers are
+/// inside each other. Empty documents before and after it, as `rostopic echo` prints them, are
+/// passed over.
+///
+/// Plain scalars are those of JSON: null (and ~), true and false (as in YAML 1.2; also with a
 /// capital), decimal numbers that fit a double. All other scalars, those in quotes, `.nan` and
 /// `.inf` are strings.
 ///

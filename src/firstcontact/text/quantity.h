@@ -1,5 +1,5 @@
 /// @file
-/// Numbers with units as warnings and errors have them.
+/// Numbers with units, for warnings and errors.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace firstcontact::detail {
 
-/// "1.5 s": as many digits as a person reads.
+/// A number with its unit: "1.5 s", with as many digits as a person reads.
 inline std::string quantity(double value, const char* unit) {
   return rounded(value, 6) + " " + unit;
 }

@@ -7,7 +7,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The number of "", "e5", "E+5", "e-5"; infinite where it fits no double.
+/// The exponent of "", "e5", "E+5", "e-5"; infinite where it fits no double.
 double exponent(std::string_view text) {
   if (text.empty()) {
     return 0.0;
@@ -22,7 +22,7 @@ double exponent(std::string_view text) {
 
 }  // namespace
 
-// It is so far from 1 that the decimal place of its first digit decides.
+// The number is so far from 1 that the decimal place of its first digit decides.
 bool is_too_small(std::string_view number) {
   const std::size_t mantissa = std::min(number.find_first_of("eE"), number.size());
   const std::size_t point = std::min(number.substr(0, mantissa).find('.'), mantissa);

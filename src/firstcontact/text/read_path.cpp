@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kPackage = "package://";
 
 bool is_file(const std::filesystem::path& path) {
-  // A NUL would end the name for the operating system, and another file would be opened.
+  // A NUL would end the name for the operating system, which would then open another file.
   std::error_code error;
   return path.native().find('\0') == std::string::npos &&
          std::filesystem::is_regular_file(path, error);
@@ -23,7 +23,7 @@ bool is_folder(const std::filesystem::path& path) {
          std::filesystem::is_directory(path, error);
 }
 
-/// The path from where the scene is; or from the first other folder where it is, if any.
+/// The path from the scene's folder; or from the first other folder that has it, if any.
 template <class Is>
 std::filesystem::path opened(const std::string& name, const SceneFolders& folders, const Is& is) {
   std::filesystem::path path = folders.scene / name;

@@ -11,21 +11,22 @@
 
 namespace firstcontact::detail {
 
-/// Where the paths of a scene begin.
+/// The folders in which the paths of a scene begin.
 struct SceneFolders {
-  std::filesystem::path scene;                            ///< Relative paths begin here...
-  std::vector<std::filesystem::path> others = {};         ///< ...or in the first that has the file.
-  std::vector<std::filesystem::path> package_roots = {};  ///< As opened. For "package://name/...".
+  std::filesystem::path scene;                     ///< Folder of relative paths.
+  std::vector<std::filesystem::path> others = {};  ///< Further folders; the first that has the file
+                                                   ///< counts.
+  std::vector<std::filesystem::path> package_roots = {};  ///< As opened; for "package://name/...".
 };
 
-/// An array of folders, as they are to be opened.
+/// Reads an array of folders, as they are to be opened.
 ///
-/// @param folders  where relative paths begin
+/// @param folders  folders in which relative paths begin
 [[nodiscard]] std::vector<std::filesystem::path> read_package_roots(const JsonValue& value,
                                                                     const SceneFolders& folders,
                                                                     const JsonReader& read);
 
-/// The path of a file that must exist, as it is to be opened.
+/// Reads the path of a file that must exist, as it is to be opened.
 ///
 /// @param what  "a mesh file"
 /// @throws ParseError

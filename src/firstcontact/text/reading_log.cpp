@@ -6,10 +6,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A line of an error holds so many; the rest is counted.
+/// Most errors in one line; the others are counted.
 constexpr std::size_t kMostErrors = 20;
 
-/// Where an error is within its file, as in the middle of a line: "line 7: ".
+/// The place of an error in its file, for the middle of a line: "line 7: ".
 std::string place(const ParseError& error) {
   if (error.line()) {
     return "line " + std::to_string(*error.line()) + ": ";
@@ -17,7 +17,7 @@ std::string place(const ParseError& error) {
   return error.offset() ? "byte " + std::to_string(*error.offset()) + ": " : "";
 }
 
-/// The same error with another message.
+/// An error with another message at the same place.
 ParseError with_message(const ParseError& error, const std::string& message) {
   if (error.line()) {
     return ParseError(error.path(), *error.line(), message);

@@ -1,5 +1,5 @@
 /// @file
-/// Where a reader notes what it takes, leaves out, warns of and refuses.
+/// The notes of a reader: contents, names left out, warnings and errors.
 
 #pragma once
 
@@ -36,29 +36,32 @@ class FIRSTCONTACT_API ReadingLog {
   /// Notes something that can make no contact.
   void leave_out(std::string_view name, std::string_view reason, std::size_t count = 1);
 
-  /// Notes what a user should know. Warnings of one cause are counted: the first of them is shown,
-  /// with how many more there are.
+  /// Notes a warning for the user.
   ///
-  /// @param cause  what they have in common; empty for a warning of its own
+  /// Warnings of one cause are counted: the first of them is shown, with the number of the others.
+  ///
+  /// @param cause  their common cause; empty for a warning of its own
   void warn(const ParseError& warning, std::string_view cause = {});
 
-  /// An error that does not keep the reader from going on: finish() reports all of them at once.
+  /// Adds an error that does not stop the reader: finish() reports all of them at once.
   void add_error(const ParseError& error);
 
-  /// Adds an error for a part that could hold or place geometry and is not understood.
+  /// Adds an error for an unknown name that could hold or place geometry.
   ///
   /// Where the options are lenient it is a warning.
   ///
-  /// @param cause  as of warn()
+  /// @param cause  as for warn()
   void refuse(const ParseError& error, std::string_view cause = {});
 
   [[nodiscard]] bool has_errors() const { return !errors_.empty(); }
   [[nodiscard]] std::size_t error_count() const { return errors_.size(); }
 
+  /// Throws all errors as one.
+  ///
   /// @throws ParseError  one line with all errors, if there are any
   void throw_errors() const;
 
-  /// The account of the file.
+  /// Returns the report on the file.
   ///
   /// @throws ParseError  as throw_errors
   [[nodiscard]] FileReport finish();

@@ -1,5 +1,5 @@
 /// @file
-/// SHA-256, the digest that names what was read.
+/// SHA-256, the digest that identifies inputs.
 
 #pragma once
 
@@ -30,8 +30,8 @@ class FIRSTCONTACT_API Sha256 {
   std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                                       0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> block_{};
-  std::size_t filled_ = 0;    // Bytes in block_.
-  std::uint64_t length_ = 0;  // Bytes added.
+  std::size_t filled_ = 0;    // Number of bytes in block_.
+  std::uint64_t length_ = 0;  // Number of bytes added.
 };
 
 /// The digest of one piece.

@@ -19,7 +19,7 @@ namespace firstcontact::detail {
 /// Text in quotes for an error: cut short, and printable.
 std::string quoted(std::string_view text);
 
-/// Without the mark that some editors put at the begin of a text in UTF-8.
+/// The text without the mark that some editors put at the begin of UTF-8.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
@@ -28,12 +28,14 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 
 /// The syntax in which text formats differ.
 struct TextSyntax {
-  bool comments = false;      ///< '#' to the end of the line.
-  bool continuation = false;  ///< A backslash at its end joins the next line.
+  bool comments = false;      ///< Whether '#' begins a comment that ends with the line.
+  bool continuation = false;  ///< Whether a backslash at the end of a line joins the next one.
 };
 
-/// A position in a text. Blanks are skipped before each item. A line ends at its line feed; in a
-/// text that has none, at its carriage return.
+/// A position in a text.
+///
+/// Blanks are skipped before each item. A line ends at its line feed, in a text without line feeds
+/// at its carriage return.
 class TextCursor {
  public:
   TextCursor(std::string_view text, const std::string& source, TextSyntax syntax,
@@ -53,8 +55,8 @@ class TextCursor {
     return next_ == end_ || *next_ == feed_ || is_comment(next_);
   }
 
-  /// Goes to the next line that holds something; false at the end of the text. On a line with
-  /// something left it stays.
+  /// Goes to the next line with an item; false at the end of the text. It stays on a line with an
+  /// item left.
   [[nodiscard]] bool find_line() {
     while (at_line_end()) {
       if (next_ == end_) {
@@ -82,7 +84,7 @@ class TextCursor {
     }
   }
 
-  /// Everything up to the next blank; empty at the end of the line.
+  /// Takes all characters up to the next blank; empty at the end of the line.
   std::string_view word() {
     if (at_line_end()) {
       return {};
@@ -94,17 +96,17 @@ class TextCursor {
     return {begin, static_cast<std::size_t>(next_ - begin)};
   }
 
-  /// The next character if it is `wanted`, without skipping blanks.
+  /// Takes the next character if it is `wanted`, without skipping blanks.
   bool take(char wanted) {
     const bool found = next_ != end_ && *next_ == wanted;
     next_ += found ? 1 : 0;
     return found;
   }
 
-  /// Two integers or signs can follow each other only across a blank or one of `take`.
+  /// Whether a blank or a character of `take` comes, which alone may stand between two numbers.
   [[nodiscard]] bool at_delimiter() const { return is_delimiter(next_); }
 
-  /// A finite number, rounded to nearest.
+  /// Takes a finite number, rounded to nearest.
   double number(const char* what) {
     skip_blanks();
     const char* begin = skip_plus();
@@ -117,7 +119,7 @@ class TextCursor {
     return value;
   }
 
-  /// An integer that need not end at a blank: `take` and `at_delimiter` say what follows.
+  /// Takes an integer that need not end at a blank: `take` and `at_delimiter` test what follows.
   std::int64_t integer_prefix(const char* what) {
     const char* begin = skip_plus();
     std::int64_t value = 0;
@@ -144,7 +146,7 @@ class TextCursor {
     throw ParseError(source_, line_, message);
   }
 
-  /// "expected `what`, got 'word'".
+  /// Throws "expected `what`, got 'word'".
   [[noreturn]] void fail_at_word(const std::string& what);
 
  private:
@@ -182,7 +184,7 @@ class TextCursor {
     }
   }
 
-  /// std::from_chars knows no '+'.
+  /// Skips a '+', which std::from_chars() does not read.
   [[nodiscard]] const char* skip_plus() const {
     const bool plus = end_ - next_ > 1 && *next_ == '+' && next_[1] != '-';
     return plus ? next_ + 1 : next_;

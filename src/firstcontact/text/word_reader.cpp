@@ -18,7 +18,7 @@ constexpr std::size_t kShownCharacters = 40;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
 
-/// In quotes, and what cannot be shown as a dot.
+/// A word in quotes; characters that cannot be shown become dots.
 std::string shown(std::string_view word) {
   if (word.empty()) {
     return "the end";

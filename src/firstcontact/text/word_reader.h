@@ -11,12 +11,14 @@
 
 namespace firstcontact::detail {
 
-/// Words are parted by white space, and by characters that count as such; comments run from `#` to
-/// the end of the line.
+/// Reads the words of a text.
+///
+/// White space separates words, and so do the given characters. Comments run from `#` to the end of
+/// the line.
 class WordReader {
  public:
   /// @param source      names the text in errors
-  /// @param separators  characters that part words, too
+  /// @param separators  further characters that separate words
   WordReader(std::string_view text, std::string source, std::string_view separators = "");
 
   /// The next word; empty at the end of the text.
@@ -28,10 +30,10 @@ class WordReader {
   /// @throws ParseError at the end: expected `what`
   std::string_view word(const std::string& what);
 
-  /// Takes the next word, which has to be this one, in upper or lower case.
+  /// Takes the next word, which has to be the given one, in upper or lower case.
   void expect(std::string_view word);
 
-  /// Takes a finite number of a size of at most 1e9.
+  /// Takes a finite number of at most 1e9 in size.
   double number(const std::string& what);
 
   /// Takes a whole number >= 0.
@@ -40,13 +42,17 @@ class WordReader {
   /// Takes three numbers.
   Eigen::Vector3d vector(const std::string& what);
 
-  /// Whether the next word is on the line of the word taken last.
+  /// Whether the next word is on the line of the last word that was taken.
   [[nodiscard]] bool on_line_of_last() const { return line_ == taken_line_; }
 
+  /// Throws an error at the next word.
+  ///
   /// @throws ParseError  path:line of the next word: expected `what`, got the word
   [[noreturn]] void fail_expected(const std::string& what) const;
 
-  /// @throws ParseError  path:line of the word taken last: message
+  /// Throws an error at the last word that was taken.
+  ///
+  /// @throws ParseError  path:line of that word: message
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -55,13 +61,13 @@ class WordReader {
   std::string_view text_;
   std::string source_;
   std::string_view separators_;
-  std::size_t at_ = 0;  // Behind the next word.
+  std::size_t at_ = 0;  // Position behind the next word.
   std::size_t line_ = 1;
   std::size_t taken_line_ = 1;
   std::string_view word_;
 };
 
-/// Whether two words are the same but for upper and lower case of ASCII letters.
+/// Whether two words are equal, apart from upper and lower case of ASCII letters.
 bool same_word(std::string_view a, std::string_view b);
 
 }  // namespace firstcontact::detail

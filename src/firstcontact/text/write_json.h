@@ -11,7 +11,7 @@
 
 namespace firstcontact::detail {
 
-/// The tree as JSON on one line.
+/// Writes a tree as JSON on one line.
 ///
 /// @param tree  its numbers are finite: JSON has no others
 [[nodiscard]] FIRSTCONTACT_API std::string write_json(const JsonValue& tree);
@@ -22,7 +22,7 @@ namespace firstcontact::detail {
 /// A string in double quotes with the escapes of JSON. Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] FIRSTCONTACT_API std::string write_json(std::string_view text);
 
-/// The same for a message: cut short where it is long.
+/// Writes a string likewise for a message: cut short where it is long.
 [[nodiscard]] FIRSTCONTACT_API std::string in_quotes(std::string_view text);
 
 }  // namespace firstcontact::detail

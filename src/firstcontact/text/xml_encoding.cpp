@@ -24,7 +24,7 @@ std::string declared_encoding(std::string_view text) {
   return end == std::string_view::npos ? "" : lower(text.substr(at + 1, end - at - 1));
 }
 
-/// Bytes are code points.
+/// Whether an encoding is Latin-1, whose bytes are code points.
 bool is_latin1(std::string_view encoding) {
   return encoding == "iso-8859-1" || encoding == "iso8859-1" || encoding == "latin1" ||
          encoding == "latin-1";

@@ -28,13 +28,13 @@ std::string listed(const std::vector<std::string_view>& names) {
   return names.empty() ? "none" : text;
 }
 
-/// In angle brackets, cut short.
+/// A name in angle brackets, cut short.
 std::string tag(std::string_view name) {
   constexpr std::size_t kLongest = 60;
   return "<" + std::string(name.substr(0, kLongest)) + (name.size() > kLongest ? "...>" : ">");
 }
 
-/// More changes of letters than this make another word.
+/// Number of changed letters beyond which a name is another word.
 std::size_t most_changes(std::string_view name) { return name.size() < 8 ? 1 : 2; }
 
 bool is_prefixed(std::string_view name) { return name.find(':') != std::string_view::npos; }
@@ -52,7 +52,7 @@ bool is_declaration(std::string_view attribute) {
          attribute.starts_with("xsi:");
 }
 
-/// "&name;" that XML itself does not know: tinyxml2 leaves it as it stands.
+/// Whether a text has an "&name;" that XML itself does not define; tinyxml2 leaves it unchanged.
 bool has_entity(std::string_view text) {
   const std::size_t begin = text.find('&');
   return begin != std::string_view::npos && text.find(';', begin) != std::string_view::npos;
@@ -177,7 +177,7 @@ void XmlNameCheck::check_text(const XmlElement& element) const {
   }
 }
 
-/// Also "Link", "link1", and "loop_joint" with parts.
+/// Whether a name reports geometry; also "Link", "link1", and "loop_joint" with parts.
 bool XmlNameCheck::tells(const XmlElement& stranger) const {
   std::string word = lower(without_prefix(stranger.Name()));
   while (!word.empty() && word.back() >= '0' && word.back() <= '9') {

@@ -1,6 +1,5 @@
 /// @file
-/// The rules of an XML reader for names: it takes them, leaves them out, warns of them, or refuses
-/// them.
+/// The rules of an XML reader for names: known, left out, warned of, or refused.
 
 #pragma once
 
@@ -13,7 +12,7 @@
 
 namespace firstcontact::detail {
 
-/// A name that a reader leaves out, and why it may.
+/// A name that a reader leaves out, and the reason why it may.
 struct HarmlessName {
   std::string_view name;
   std::string_view reason;
@@ -23,7 +22,8 @@ struct HarmlessName {
 struct XmlNames {
   std::vector<std::string_view> read;
   std::vector<HarmlessName> harmless = {};
-  bool is_strict = false;  ///< All other names are refused: any could change what is read.
+  bool is_strict = false;  ///< Whether all other names are refused, as any could change the
+                           ///< contents.
 };
 
 /// The names that an element may hold.
@@ -34,20 +34,20 @@ struct XmlContents {
 
 /// The names of a format that hold, place or move geometry, wherever they stand.
 struct TellingNames {
-  std::vector<std::string_view> anywhere;    ///< Even empty: "mesh".
+  std::vector<std::string_view> anywhere;    ///< Also where they are empty: "mesh".
   std::vector<std::string_view> with_parts;  ///< Where they have children: "link".
-  std::vector<std::string_view> in_place;    ///< Right inside of what is read: "origin".
+  std::vector<std::string_view> in_place;    ///< Directly inside of a known element: "origin".
 };
 
-/// The check of the names inside of elements.
+/// Checks the names inside of elements.
 ///
 /// In order: a name that is read or harmless is known. A name that xacro would replace is refused,
-/// and so is one like a name that is read. A name with a prefix belongs to another program, and is
-/// left out unless it is one of geometry. A name of geometry is refused, and so is an element that
-/// holds such things; the rest gets a warning.
+/// and so is one like a known name. A name with a prefix belongs to another program, and is left
+/// out unless it is one of geometry. A name of geometry is refused, and so is an element that holds
+/// such names. Other names get a warning.
 class XmlNameCheck {
  public:
-  /// All three outlive the check.
+  /// Makes the check. All three arguments outlive it.
   XmlNameCheck(const XmlReader& xml, ReadingLog& log, const TellingNames& telling)
       : xml_(xml), log_(log), telling_(telling) {}
 
@@ -67,7 +67,7 @@ class XmlNameCheck {
   const TellingNames& telling_;
 };
 
-/// The known name that a misspelt one is near, or empty: none, or it is nearer to a harmless one.
+/// The known name nearest to a misspelt one; empty if there is none, or a harmless name is nearer.
 [[nodiscard]] std::string_view misspelt_name(std::string_view name, const XmlNames& known);
 
 }  // namespace firstcontact::detail

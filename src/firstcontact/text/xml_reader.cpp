@@ -25,7 +25,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-/// Nothing if it is no finite number of at most 1e60 in size.
+/// A finite number of at most 1e60 in size; none for other words.
 std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) {
     word.remove_prefix(1);
@@ -36,7 +36,7 @@ std::optional<double> parse_number(std::string_view word) {
   return complete && std::abs(value) <= kGreatest ? std::optional(value) : std::nullopt;
 }
 
-/// Whether the other says at least as much, in whatever order.
+/// Whether the other element has all attributes of this one, in any order.
 bool says_all_of(const XmlElement& element, const XmlElement& other) {
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
     if (other.Attribute(a->Name(), a->Value()) == nullptr) {
@@ -46,13 +46,13 @@ bool says_all_of(const XmlElement& element, const XmlElement& other) {
   return true;
 }
 
-/// Whether the two say the same and hold nothing else.
+/// Whether the two have equal attributes and hold nothing else.
 bool is_repeat(const XmlElement& element, const XmlElement& other) {
   return element.NoChildren() && other.NoChildren() && says_all_of(element, other) &&
          says_all_of(other, element);
 }
 
-/// Xacro puts values where such a word stands.
+/// A hint where xacro would replace a word.
 const char* hint_of(std::string_view word) {
   return word.find("${") != std::string_view::npos || word.find("$(") != std::string_view::npos
              ? "; run xacro first"

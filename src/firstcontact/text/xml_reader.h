@@ -1,5 +1,5 @@
 /// @file
-/// Takes values out of an XML tree, or reports the element that holds something else than expected.
+/// Reads values of an XML tree, or reports the element with an unexpected value.
 
 #pragma once
 
@@ -29,7 +29,7 @@ class XmlText {
   void append(std::string_view text);
 
   [[nodiscard]] std::string_view view() const { return joined_.empty() ? whole_ : joined_; }
-  [[nodiscard]] std::size_t line() const { return line_; }  ///< Where it begins.
+  [[nodiscard]] std::size_t line() const { return line_; }  ///< Line on which it begins.
 
  private:
   std::string_view whole_;
@@ -37,18 +37,19 @@ class XmlText {
   std::size_t line_;
 };
 
-/// "<joint name='a'>".
+/// An element as messages show it: "<joint name='a'>".
 [[nodiscard]] std::string shown(const XmlElement& element);
 
-/// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
-/// where something is not of the kind that the function names. Numbers are read exactly, whatever
-/// the locale.
+/// Reads a parsed document.
+///
+/// Every function throws ParseError, "path:line: <element>: what was expected", where something is
+/// not of the kind that the function names. Numbers are read exactly, whatever the locale.
 class XmlReader {
  public:
   /// @param source  names the text in errors
   XmlReader(std::string_view text, std::string source);
 
-  /// The one outermost element, which has to be named so.
+  /// The one outermost element, which must have this name.
   [[nodiscard]] const XmlElement& root(const char* name) const;
 
   [[nodiscard]] const std::string& source() const { return source_; }
@@ -62,16 +63,17 @@ class XmlReader {
   /// All children of this name, in order.
   [[nodiscard]] std::vector<const XmlElement*> children(const XmlElement& element,
                                                         const char* name) const;
-  /// The only child of this name, or null. Repeats that say the same without children of their own
-  /// count once.
+  /// The only child of this name, or null.
+  ///
+  /// Repeats with equal attributes and without children of their own count once.
   [[nodiscard]] const XmlElement* child(const XmlElement& element, const char* name) const;
-  /// The only child of this name, which has to be there.
+  /// The only child of this name, which must exist.
   [[nodiscard]] const XmlElement& required_child(const XmlElement& element, const char* name) const;
 
-  /// An attribute that has to be there and not be empty.
+  /// Reads an attribute that must exist and not be empty.
   [[nodiscard]] std::string text(const XmlElement& element, const char* attribute) const;
 
-  /// Finite and at most 1e60 in size.
+  /// Reads a finite number of at most 1e60 in size.
   [[nodiscard]] double number(const XmlElement& element, const char* attribute) const;
   [[nodiscard]] std::optional<double> optional_number(const XmlElement& element,
                                                       const char* attribute) const;
@@ -80,10 +82,10 @@ class XmlReader {
 
   [[nodiscard]] std::vector<double> numbers(const XmlElement& element, const char* attribute) const;
 
-  /// The text of an element without elements inside.
+  /// The text of an element that has no elements inside.
   [[nodiscard]] XmlText content(const XmlElement& element) const;
 
-  /// A whole number >= 0; `missing` where the attribute is not there.
+  /// Reads a whole number >= 0; `missing` where the attribute does not exist.
   [[nodiscard]] std::uint64_t whole_number(const XmlElement& element, const char* attribute,
                                            std::optional<std::uint64_t> missing = {}) const;
 

@@ -34,10 +34,10 @@ using detail::FreeClaim;
 using detail::MovingScene;
 using detail::ProofFinding;
 
-/// [-]  How far a distance that was held may be from the share of its policy.
+/// [-]  Greatest difference of a held distance from the share of its policy.
 constexpr double kHeldError = 0x1p-8;
 
-/// [tolerances]  Beyond its margin a planner still takes a pair to be in contact.
+/// [tolerances]  Distance beyond its margin at which a planner still takes a pair to be in contact.
 constexpr double kContactTolerances = 3.0;
 
 class PathProof {
@@ -139,14 +139,14 @@ class PathProof {
     }
   }
 
-  /// The policies allow no less than a share of the distance at that end of the path.
+  /// Proves the contact pairs: the policies allow no less than a share of the distance at that end.
   void prove_contact_pairs() {
     for (const Contact& contact : contacts_) {
       const bool at_start = contact.claim->at == PathEnd::start;
       const std::size_t edges = path_.clearances.size();
       const FreeClaim claim{
           .until = {}, .from = share(0), .last = share(std::max<std::size_t>(edges, 1))};
-      // A pair that keeps its margin at that end is no contact pair, and has no hold in its place.
+      // A pair that keeps its margin at that end is no contact pair, and needs no hold.
       const double in_contact = courses_.pairs().margin(contact.members).value() +
                                 path_.extra_clearance + kContactTolerances * path_.tolerance;
       const double held =
@@ -171,12 +171,13 @@ class PathProof {
     return held;
   }
 
-  /// [-]  Of a waypoint, as the pieces of the motion begin and end, bit for bit.
+  /// [-]  The time of a waypoint at which pieces of the motion begin and end, bit for bit.
   [[nodiscard]] double share(std::size_t waypoint) const {
     return moving_.time(waypoint) / moving_.loaded().scene.duration;
   }
 
-  /// From the last waypoint, as ConfigurationSpace::distance(), by arithmetic of its own.
+  /// The distance from the last waypoint, as ConfigurationSpace::distance(), by arithmetic of its
+  /// own.
   [[nodiscard]] double distance_to_goals() const {
     double least = std::numeric_limits<double>::infinity();
     for (const std::vector<double>& goal : path_.goals) {
@@ -201,7 +202,7 @@ class PathProof {
     return std::sqrt(square);
   }
 
-  /// [m]  The way of the origin, and that of the farthest point by the shortest rotation.
+  /// [m]  The displacement of the origin, and that of the farthest point by the shortest rotation.
   [[nodiscard]] double way_of_body(const std::vector<double>& from,
                                    const std::vector<double>& to) const {
     const Shape& shape = shape_of_body(moving_.loaded(), *moving_.body());
@@ -225,7 +226,7 @@ class PathProof {
     if (path_.is_proven && !result_.reaches_goal) {
       throw BrokenPath("The path calls itself proven, but does not end at the goal that it names.");
     }
-    // Doubles of a distance; both are sums of few terms.
+    // Covers the roundings of a distance; both are sums of few terms.
     constexpr double kRounding = 1e-9;
     const double distance = result_.reaches_goal ? 0.0 : distance_to_goals();
     if (!(std::abs(path_.distance_to_goal - distance) <= kRounding * (1.0 + distance))) {
@@ -240,7 +241,7 @@ class PathProof {
     }
   }
 
-  /// The numbers about the whole path are those of its scene and its edges.
+  /// Requires that the numbers about the whole path are those of its scene and its edges.
   void require_totals() {
     if (!(path_.tolerance == moving_.loaded().scene.options.tolerance)) {
       throw BrokenPath("The tolerance of the path is not that of its scene.");
@@ -273,7 +274,7 @@ class PathProof {
         path_.clearances.empty() ? path_.clearance : path_.clearances[edge];
     const bool is_claimed = clearance && *clearance >= 0.0 && !courses_.has_tracking_errors();
     if (is_claimed && result_.verdict == ProofVerdict::proven) {
-      // Mostly both hold, and one proof is of both.
+      // Mostly both hold, and one proof covers both.
       FreeClaim both = claim;
       both.clearance = clearance;
       both.has_margins = true;

@@ -24,7 +24,7 @@ using detail::ProofFinding;
 using detail::SceneCourses;
 using detail::SceneProof;
 
-/// A claim that contradicts another one, or the scene. One sentence.
+/// The error that a claim contradicts another one, or the scene. One sentence.
 class BrokenResult : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -104,7 +104,7 @@ class ResultProof {
     return own == until_.end() ? claims_.t : own->second;
   }
 
-  /// Comparisons are negated, so that NaN is refused.
+  /// Requires a time in [0, 1]. Comparisons are negated, so that NaN is refused.
   static void require_time(Verdict verdict, double t, const std::string& what) {
     if (!(t >= 0.0 && t <= 1.0)) {
       throw BrokenResult(what + "t is not within 0 and 1.");
@@ -131,7 +131,7 @@ class ResultProof {
   }
 
   void require_numbers(const PairClaim& claim, const BodyPair& pair, const std::string& what) {
-    constexpr double kRounding = 0x1p-50;  // Of the sum of a margin and two paddings.
+    constexpr double kRounding = 0x1p-50;  // [-]  Relative to the sum of a margin and two paddings.
     const double margin = courses_.pairs().margin(pair).value();
     if (!(std::abs(claim.margin - margin) <= kRounding * margin)) {
       throw BrokenResult(what + "its margin is not that of the scene.");
@@ -166,7 +166,7 @@ class ResultProof {
     return pair;
   }
 
-  /// Both the count of tested pairs and their list are to be those of the scene.
+  /// Requires that the count of tested pairs and their list are those of the scene.
   void require_pairs() {
     std::size_t tested = 0;
     for (std::size_t a = 0; a < courses_.member_count(); ++a) {
@@ -217,13 +217,14 @@ class ResultProof {
     }
   }
 
-  /// Held over the whole step, a pair is never tested.
+  /// Whether a pair is tested; a pair that is held over the whole step never is.
   [[nodiscard]] bool is_tested(const BodyPair& pair) const {
     return courses_.pairs().margin(pair) && !courses_.of_member(pair[0]).empty() &&
            !courses_.of_member(pair[1]).empty() && !courses_.pairs().spans(pair).empty();
   }
 
-  /// A larger tolerance than the asked one proves less: it has to be one that rounding explains.
+  /// Requires that a larger tolerance than the asked one, which proves less, is explained by
+  /// rounding.
   void bound_tolerances() {
     const double asked = claims_.scene.options.tolerance;
     double all = asked;  // That of the result is the greatest of its pairs.

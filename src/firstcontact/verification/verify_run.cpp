@@ -40,8 +40,10 @@ using detail::RunMember;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Steps that are proven side by side. All of them know of the same least distance, that of the
-/// steps before, so that the answer does not depend on the number of threads.
+/// Number of steps that are proven side by side.
+///
+/// All of them have the same least distance, that of the steps before. So the answer does not
+/// depend on the number of threads.
 constexpr std::size_t kChunk = 16;
 
 void require_plain(const Scene& scene) {
@@ -124,14 +126,14 @@ class Verification {
   }
 
  private:
-  /// One pair of a step, and what is proven of it.
+  /// One pair of a step, with its proof.
   struct Job {
-    std::size_t step = 0;  // Of the chunk.
+    std::size_t step = 0;  // Index in the chunk.
     BodyPair bodies = {};
     CoverResult result = {};
   };
 
-  /// After what cannot be proven the rest may still be refuted.
+  /// Whether to go on: after an open step the rest may still be refuted.
   [[nodiscard]] bool going() const {
     return result_.verdict == ProofVerdict::proven ||
            (result_.verdict == ProofVerdict::not_proven && !ended_);
@@ -139,14 +141,14 @@ class Verification {
 
   void stop(ProofVerdict verdict, std::string problem, std::optional<RunMoment> at = {}) {
     if (result_.verdict == ProofVerdict::not_proven && verdict == ProofVerdict::not_proven) {
-      return;  // The first one counts.
+      return;  // The first problem counts.
     }
     result_.verdict = verdict;
     result_.problem = std::move(problem);
     result_.problem_at = at;
   }
 
-  /// Nothing was promised of two bodies that the script moves, or nobody.
+  /// Whether two bodies may touch. Nothing is promised of two bodies that scripts move, or nothing.
   [[nodiscard]] bool may_touch(const BodyPair& pair) const {
     return (members_[pair[0]].is_free || members_[pair[1]].is_free) &&
            loaded_.bodies.rules().margin(pair).has_value();
@@ -163,7 +165,7 @@ class Verification {
     return rest;
   }
 
-  /// What is inside of a solid at the start would never have to cross its surface.
+  /// Requires that no body begins inside of a solid, as it would never have to cross the surface.
   void require_outside_at_start() {
     std::vector<Eigen::AlignedBox3d> boxes;
     for (std::size_t b = 0; b < members_.size(); ++b) {
@@ -216,7 +218,7 @@ class Verification {
     return detail::is_inside(mesh, p);
   }
 
-  /// Any two points of two bodies say how far apart these are at most.
+  /// Finds a first upper bound of the distances: the least distance of points of two bodies.
   void find_first_witness() {
     std::vector<Eigen::Vector3d> points;
     for (std::size_t b = 0; b < members_.size(); ++b) {
@@ -240,13 +242,13 @@ class Verification {
     return result_.closest.value_or(RunMoment{.distance = kInfinity}).distance;
   }
 
-  /// False at the end of the run.
+  /// Takes the next steps. False at the end of the run.
   bool take_chunk(const std::function<std::optional<RunStep>()>& next) {
     std::vector<FollowedStep> chunk;
     std::optional<std::string> broken;
     std::optional<std::string> unproven;
     bool more = true;
-    // Alone, the first step finds how close bodies come, and spares the others the search.
+    // The first step is alone: it finds how close bodies come, which saves the others the search.
     const std::size_t size = result_.steps == 0 ? 1 : kChunk;
     while (more && chunk.size() < size && !options_.stop.stop_requested()) {
       const std::optional<RunStep> step = next();
@@ -366,7 +368,7 @@ class Verification {
   std::vector<RunMember> members_;
   RunFollower follower_;
   RunVerification result_;
-  std::vector<double> time_lost_;  // Of the steps of the chunk.
+  std::vector<double> time_lost_;  // For the steps of the chunk.
   bool ended_ = false;
 };
 

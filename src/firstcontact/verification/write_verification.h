@@ -1,5 +1,5 @@
 /// @file
-/// Writes what was proven of a run, a result or a path as JSON.
+/// Writes the proof of a run, a result or a path as JSON.
 
 #pragma once
 
@@ -17,19 +17,21 @@ struct ResultVerification;
 struct RunHeader;
 struct RunVerification;
 
-/// One JSON object on one line, without a line feed; bodies by their names, what is infinite null.
+/// Writes the proof of a run as one JSON object on one line, without a line feed.
+///
+/// Bodies appear by their names, and infinite numbers as null.
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(const RunHeader& header,
                                                               const RunVerification& verification);
 
-/// One JSON object on one line, without a line feed.
+/// Writes the proof of a result as one JSON object on one line, without a line feed.
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(
     const ResultClaims& claims, const ResultVerification& verification);
 
-/// One JSON object on one line, without a line feed.
+/// Writes the proof of a path as one JSON object on one line, without a line feed.
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(const PlannedPath& path,
                                                               const PathVerification& verification);
 
-/// The words of that JSON: proven, refuted, broken, not_proven.
+/// The word of a verdict in that JSON: proven, refuted, broken, not_proven.
 [[nodiscard]] FIRSTCONTACT_API const char* word(ProofVerdict verdict);
 
 }  // namespace firstcontact

@@ -8,7 +8,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Covers a few roundings of a length.
+/// [-]  Factor that covers a few roundings of a length.
 constexpr double kUp = 1.0 + 0x1p-48;
 
 class Builder {
@@ -32,7 +32,8 @@ class Builder {
  private:
   using Triangle = std::array<Eigen::Vector3d, 3>;
 
-  /// Node over the triangles from `begin` to `end`; halves them along their greatest spread.
+  /// Fills the node over the triangles from `begin` to `end`; halves them along their greatest
+  /// spread.
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     Triangle* const first = tree_.triangles.data();
     Eigen::AlignedBox3d box;

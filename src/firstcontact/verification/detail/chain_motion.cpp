@@ -7,10 +7,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Covers the roundings of a sum of a few products that are not negative.
+/// [-]  Factor that covers the roundings of a sum of a few products that are not negative.
 constexpr double kRoundedUp = 1.0 + 0x1p-48;
 
-/// A frame of a chain, and how it moves.
+/// A frame of a chain, and bounds of its motion.
 class ChainFrame {
  public:
   ChainFrame(const RigidMotion* base, double time, double half, const Eigen::Vector3d& origin)
@@ -74,11 +74,13 @@ class ChainFrame {
     return now;
   }
 
-  /// Derivation: let the last joint err first, then the one before it, and so on. None of them
-  /// moves the axes of those that are still to err. An error e of a turn moves a point at a
-  /// distance d from the axis by e d at most, and d has grown by what the point is off already.
+  /// Adds the bounds of tracking errors.
+  ///
+  /// Derivation: the last joint errs first, then the one before it, and so on. No error moves the
+  /// axes of the joints that have not erred yet. An error e of a turn moves a point at a distance d
+  /// from the axis by at most e d. By then d has grown by the earlier errors of the point.
   void add_tracking(BodyInstant& now) const {
-    double speed = 0.0;  // Of the pivot, as the child of the joint sees it.
+    double speed = 0.0;  // Speed of the pivot, as seen from the child of the joint.
     for (std::size_t k = passed_.size(); k-- > 0;) {
       const Passed& joint = passed_[k];
       const double lever = kRoundedUp * (norm(X_.position - joint.place).upper() + half_ * speed);
@@ -91,9 +93,9 @@ class ChainFrame {
   }
 
  private:
-  /// A joint on the way, and what it does.
+  /// A joint that was passed, with its rates.
   struct Passed {
-    IntervalVector3 place;  // Of its axis.
+    IntervalVector3 place;  // Place of its axis.
     double turn_rate = 0.0;
     double slide_rate = 0.0;
     TrackingError error;
@@ -107,7 +109,7 @@ class ChainFrame {
     return detail::rotated(axis, angle, unit);
   }
 
-  /// [1/s^2]  Of the present frame: times a distance.
+  /// [1/s^2]  Bound for the present frame, per distance.
   [[nodiscard]] double turning() const {
     return kRoundedUp * (turn_acceleration_ + turn_rate_ * turn_rate_);
   }
@@ -117,8 +119,8 @@ class ChainFrame {
   IntervalTransform X_;
   IntervalVector3 velocity_;
   IntervalVector3 spin_;
-  double turn_rate_ = 0.0;          // At most, in the window; so are the others.
-  double turn_acceleration_ = 0.0;  // Of the turn alone.
+  double turn_rate_ = 0.0;          // Bounds in the window; so are the others.
+  double turn_acceleration_ = 0.0;  // Of the turn alone, without w^2.
   double acceleration_ = 0.0;
   std::vector<Passed> passed_;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// The verifier's own arithmetic for what hangs on a chain of joints.
+/// The verifier's own arithmetic for a frame on a chain of joints.
 
 #pragma once
 
@@ -24,7 +24,8 @@ struct ChainJoint {
     IntervalVector3 direction;  ///< [-]  In J.
     const CoordinatePolynomial* coordinate = nullptr;
   };
-  IntervalTransform before;  ///< From the child of the joint before, or from the frame, to J.
+  IntervalTransform before;  ///< Transform to J from the child of the joint before, or from the
+                             ///< frame.
   IntervalVector3 axis;      ///< [-]  Unit, in J.
   const CoordinatePolynomial* angle = nullptr;
   std::vector<Slide> slides = {};
@@ -33,17 +34,19 @@ struct ChainJoint {
 
 /// The motion of a frame with a pivot at its end of a chain of joints.
 ///
-/// Bounds of accelerations go along the chain: a point at a distance r from the origin of a frame
-/// accelerates by at most a + (e + w^2) r, with a of the origin, e and w of the turn of the frame;
-/// a joint adds its own rates to w, their derivatives and w times them to e, and what it slides to
-/// a, with Coriolis' term. (The recursion of J. Y. S. Luh, M. W. Walker, R. P. C. Paul, "On-line
-/// computational scheme for mechanical manipulators", Journal of Dynamic Systems, Measurement, and
-/// Control 102 (1980), in sizes.)
+/// Bounds of accelerations go along the chain. A point at a distance r from the origin of a frame
+/// accelerates by at most a + (e + w^2) r. a is that of the origin; e and w bound the turn of the
+/// frame. A joint adds its own rates to w. It adds their derivatives, and w times the rates, to e.
+/// Its slides, with Coriolis' term, add to a.
+///
+/// Source: the recursion of J. Y. S. Luh, M. W. Walker, R. P. C. Paul, "On-line computational
+/// scheme for mechanical manipulators", Journal of Dynamic Systems, Measurement, and Control 102
+/// (1980), in sizes.
 class ChainMotion : public CoveredMotion {
  public:
-  /// @param base    where the chain begins, in the world; none where the chain begins in a frame
-  ///                that serves as the world
-  /// @param tail    from the child of the last joint to the pivot
+  /// @param base    motion of the chain's begin in the world; none where the chain begins in a
+  ///                frame that serves as the world
+  /// @param tail    transform from the child of the last joint to the pivot
   ChainMotion(double from, double to, std::shared_ptr<const RigidMotion> base,
               std::vector<ChainJoint> joints, const IntervalTransform& tail);
 

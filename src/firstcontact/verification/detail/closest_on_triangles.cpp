@@ -33,8 +33,7 @@ PointPair closest(const Vector3d& a, const Vector3d& a_to, const Vector3d& b,
   return pair_of(a + s * u, b + t * v);
 }
 
-/// Where a line through p along u meets the plane of a triangle, if that is inside of it: the
-/// line's parameter.
+/// The parameter of a line through p along u at the plane of a triangle, if it meets the inside.
 std::optional<double> meets(const Vector3d& p, const Vector3d& u, const TrianglePoints& t,
                             const Vector3d& normal) {
   const double s = normal.dot(t[0] - p) / normal.dot(u);
@@ -51,7 +50,7 @@ std::optional<double> meets(const Vector3d& p, const Vector3d& u, const Triangle
 
 Vector3d normal_of(const TrianglePoints& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-/// Keeps the closer one of what is offered.
+/// Keeps the closer one of the offered pairs.
 class Closest {
  public:
   void offer(const PointPair& pair) {
@@ -68,7 +67,7 @@ class Closest {
   PointPair best_{.distance = std::numeric_limits<double>::infinity()};
 };
 
-/// The corners of A over the face of B, and the edges of A through it; as (A, B).
+/// Offers the corners of A over the face of B, and the edges of A through it; as (A, B).
 template <class Offer>
 void offer_face(const TrianglePoints& A, const TrianglePoints& B, const Offer& offer) {
   const Vector3d normal = normal_of(B);
@@ -85,7 +84,7 @@ void offer_face(const TrianglePoints& A, const TrianglePoints& B, const Offer& o
   }
 }
 
-/// The foot of p in the plane, by two weights that are put back into the triangle.
+/// The foot of p in the plane, by two weights that are clamped to the triangle.
 Vector3d foot_in(const TrianglePoints& t, const Vector3d& p) {
   const Vector3d u = t[1] - t[0];
   const Vector3d v = t[2] - t[0];

@@ -18,8 +18,10 @@ struct PointPair {
   double distance = 0.0;  ///< [m]
 };
 
-/// About the closest points: an upper bound of the distance up to the rounding of a few sums, never
-/// a proof that triangles are apart. Degenerate triangles are edges and points.
+/// The closest points of two triangles, approximately.
+///
+/// The distance is an upper bound up to the rounding of a few sums. It never proves that triangles
+/// are apart. Degenerate triangles count as edges and points.
 [[nodiscard]] PointPair closest_estimate(const TrianglePoints& A, const TrianglePoints& B);
 
 /// A point of the triangle close to p: a convex combination of its corners, up to the rounding of

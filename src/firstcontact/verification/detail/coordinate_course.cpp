@@ -6,7 +6,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Contains 2 pi, between two neighbouring doubles.
+/// An interval that contains 2 pi, between two neighbouring doubles.
 constexpr Interval kWholeTurn(0x1.921fb54442d18p+2, 0x1.921fb54442d19p+2);
 
 Interval times(double factor, const Interval& x) { return Interval(factor) * x; }
@@ -17,13 +17,13 @@ CoordinatePolynomial resting(double from, double to, const Interval& position) {
   return piece;
 }
 
-/// Positions, and derivatives by s, at both ends.
+/// Positions, and derivatives by s, at both ends of a piece.
 struct PieceEnds {
   std::array<Interval, 3> begin;
   std::array<Interval, 3> end;
 };
 
-/// The polynomial of least degree that has the positions, and of the derivatives the first so many.
+/// The polynomial of least degree with these positions and the first `derivatives` derivatives.
 CoordinatePolynomial joining(const PieceEnds& ends, std::size_t derivatives, double from,
                              double to) {
   const auto& [p, v, a] = ends.begin;
@@ -48,8 +48,9 @@ CoordinatePolynomial joining(const PieceEnds& ends, std::size_t derivatives, dou
   return piece;
 }
 
-/// Whole turns to take off a way, so that at most half a turn is left. Half a turn, as doubles have
-/// it, stays as it is.
+/// The whole turns to take off a way, so that at most half a turn is left.
+///
+/// Half a turn, as doubles have it, stays as it is.
 double turns_beyond_half(double way) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   if (std::abs(way) <= 0.5 * kTurn) {
@@ -105,7 +106,7 @@ CoordinateCourse::CoordinateCourse(std::span<const double> times, std::span<cons
   if (times.front() > 0.0) {
     pieces_.push_back(resting(0.0, times.front(), Interval(positions.front())));
   }
-  double turns = 0.0;  // Taken off so far.
+  double turns = 0.0;  // Number of turns taken off so far.
   const auto unwound = [&](std::size_t k) {
     return Interval(positions[k]) - Interval(turns) * kWholeTurn;
   };

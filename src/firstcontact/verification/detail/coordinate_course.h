@@ -13,16 +13,16 @@
 
 namespace firstcontact::detail {
 
-/// A coordinate in a window of time. What it states of sizes holds for the whole window.
+/// A coordinate in a window of time. Bounds of sizes hold for the whole window.
 struct CoordinateWindow {
-  Interval value{0.0};  ///< [rad or m]  In its middle.
-  Interval rate{0.0};   ///< Per unit of time, in its middle.
-  double size = 0.0;    ///< [rad or m]  At most.
+  Interval value{0.0};  ///< [rad or m]  Value in its middle.
+  Interval rate{0.0};   ///< Rate in its middle, per unit of time.
+  double size = 0.0;    ///< [rad or m]  Bound of the size.
   double rate_size = 0.0;
   double acceleration_size = 0.0;
 };
 
-/// q(t) = sum over j of a_j s^j, s = (t - from) / (to - from).
+/// The polynomial q(t) = sum over j of a_j s^j, s = (t - from) / (to - from).
 struct CoordinatePolynomial {
   static constexpr std::size_t kMost = 6;
 
@@ -30,21 +30,25 @@ struct CoordinatePolynomial {
   double to = 1.0;
   std::array<Interval, kMost> a = {Interval(0.0), Interval(0.0), Interval(0.0),
                                    Interval(0.0), Interval(0.0), Interval(0.0)};
-  std::size_t count = 1;  ///< Coefficients in use.
+  std::size_t count = 1;  ///< Number of coefficients in use.
 
-  /// @param time  the middle of a window, between from and to
-  /// @param half  the window ends so much before and after it
+  /// The values in a window.
+  ///
+  /// @param time  the middle of the window, between from and to
+  /// @param half  half the length of the window
   [[nodiscard]] CoordinateWindow around(double time, double half) const;
 };
 
 /// A coordinate over the scene, t from 0 to 1, piece by piece.
 class CoordinateCourse {
  public:
-  /// Rests.
+  /// Makes a coordinate that rests.
   explicit CoordinateCourse(double position);
 
-  /// Through positions at times; with the velocities where there are any, and with the
-  /// accelerations where there are any. Rests before the first time and after the last.
+  /// Makes a coordinate through positions at times; with velocities and accelerations where they
+  /// are given.
+  ///
+  /// It rests before the first time and after the last.
   CoordinateCourse(std::span<const double> times, std::span<const double> positions,
                    std::span<const double> velocities, std::span<const double> accelerations,
                    Turning turning);

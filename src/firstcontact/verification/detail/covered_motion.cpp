@@ -7,7 +7,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// The middle of an interval; what it may be off is added to `error`.
+/// The middle of an interval; a bound of its error is added to `error`.
 double middle_of(const Interval& x, double& error) {
   const double m = x.midpoint();
   error = std::max(error, x.width_bound());
@@ -27,7 +27,7 @@ BodyInstant instant_of(const IntervalTransform& X) {
     }
   }
   now.pivot_error = 2.0 * coordinate_error;  // At least sqrt(3) of them.
-  now.turn_error = 4.0 * entry_error;        // At least the norm of a matrix of them, 3.
+  now.turn_error = 4.0 * entry_error;        // At least the norm of a matrix of them, which is 3.
   return now;
 }
 
@@ -58,7 +58,7 @@ IntervalTransform exact_transform(const Pose& pose) {
   return {exact_rotation(pose.rotation), enclose(pose.position)};
 }
 
-// By a power of two first, so that squares of tiny and of huge numbers stay in range.
+// First scaled by a power of two, so that squares of tiny and of huge numbers stay in range.
 IntervalVector3 exact_direction(const Eigen::Vector3d& v) {
   const double scale = std::exp2(-std::ilogb(v.cwiseAbs().maxCoeff()));
   const IntervalVector3 scaled = enclose(Eigen::Vector3d(scale * v));

@@ -1,5 +1,5 @@
 /// @file
-/// A smooth motion of a body over a stretch of time, as the verifier's proof sees it.
+/// A smooth motion of a body over a stretch of time, for the verifier's proof.
 
 #pragma once
 
@@ -11,25 +11,29 @@
 
 namespace firstcontact::detail {
 
-/// Where a body is at an instant, and how it moves around it.
+/// The place of a body at an instant, and bounds of its motion around it.
 struct BodyInstant {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();     ///< [-]  R_WB
-  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();     ///< [m]  World axes, from an origin.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]  Of the pivot.
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();     ///< [m]  World axes, relative to a given
+                                                       ///< origin.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]  Velocity of the pivot.
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< [rad/s]
   double pivot_error = 0.0;                            ///< [m]
-  double turn_error = 0.0;      ///< [-]  Of R: times a point's distance from the pivot.
-  double velocity_error = 0.0;  ///< [m/s]  Beyond the rounding of the velocity itself.
-  double spin_error = 0.0;      ///< [rad/s]  So too.
+  double turn_error = 0.0;      ///< [-]  Error of R, per distance of a point from the pivot.
+  double velocity_error = 0.0;  ///< [m/s]  In addition to the rounding of the velocity itself.
+  double spin_error = 0.0;      ///< [rad/s]  In addition to the rounding of the spin itself.
   /// Whether the pivot moves on a line or a screw and the body turns about one axis, both at
   /// constant rates.
   bool constant_rates = true;
-  double lever = 0.0;  ///< [m]  With constant rates: the pivot is no farther from the axis.
-  /// [m/s^2, 1/s^2]  Else: no point at a distance r from the pivot accelerates by more than
-  /// acceleration + r turn_acceleration.
+  double lever = 0.0;  ///< [m]  With constant rates: bound of the distance of the pivot from the
+                       ///< axis.
+  /// [m/s^2, 1/s^2]  Otherwise: bounds of the acceleration of points.
+  ///
+  /// A point at a distance r from the pivot accelerates by at most acceleration + r
+  /// turn_acceleration.
   double acceleration = 0.0;
   double turn_acceleration = 0.0;
-  /// [m, -]  Any point at a distance r may be off its nominal place by tracking + r turn_tracking.
+  /// [m, -]  A point at a distance r may be off its nominal place by tracking + r turn_tracking.
   double tracking = 0.0;
   double turn_tracking = 0.0;
 };
@@ -43,20 +47,20 @@ class CoveredMotion {
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
 
-  /// [m]  A place near the body; a good origin.
+  /// [m]  A place near the body, as an origin.
   [[nodiscard]] virtual const Eigen::Vector3d& position() const = 0;
 
-  /// Contains R_WB and the pivot's position at a time.
+  /// Encloses R_WB and the pivot's position at a time.
   ///
-  /// @param time    from from() to to()
-  /// @param origin  [m]  positions are from here
+  /// @param time    between from() and to()
+  /// @param origin  [m]  origin of positions
   [[nodiscard]] virtual IntervalTransform enclosure(double time,
                                                     const Eigen::Vector3d& origin) const = 0;
 
-  /// The instant in the middle of a window. What it states of accelerations and tracking holds
-  /// for the whole window.
+  /// The instant in the middle of a window; bounds of accelerations and tracking hold for all of
+  /// it.
   ///
-  /// @param half    the window ends so much before and after `time`, and within the motion
+  /// @param half    half the length of the window, which lies within the motion
   /// @param origin  [m]
   [[nodiscard]] virtual BodyInstant around(double time, double half,
                                            const Eigen::Vector3d& origin) const = 0;
@@ -75,16 +79,16 @@ class CoveredMotion {
 /// The instant of an enclosure, its pivot and rotation only.
 [[nodiscard]] BodyInstant instant_of(const IntervalTransform& X);
 
-/// The middle of each component; what they may be off is added to `error`, as a length.
+/// The middle of each component; a bound of their errors as a length is added to `error`.
 [[nodiscard]] Eigen::Vector3d middle(const IntervalVector3& v, double& error);
 
 /// The rotation of q / |q|.
 [[nodiscard]] IntervalMatrix3 exact_rotation(const Eigen::Quaterniond& quaternion);
 
-/// The exact pose.
+/// The exact transform of a pose.
 [[nodiscard]] IntervalTransform exact_transform(const Pose& pose);
 
-/// v / |v| of a vector that is not zero.
+/// The direction v / |v| of a vector that is not zero.
 [[nodiscard]] IntervalVector3 exact_direction(const Eigen::Vector3d& v);
 
 /// The rotation about a unit axis, applied to each column.

@@ -1,5 +1,5 @@
 /// @file
-/// Puts what a proof found into words.
+/// Describes the findings of a proof.
 
 #pragma once
 
@@ -15,9 +15,10 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// One sentence, with the names of the pair.
+/// Describes a finding in one sentence, with the names of the pair.
 [[nodiscard]] std::string describe(const ProofFinding& finding, const Scene& scene);
 
+/// The pair and the times of a finding; none where it is about no pair.
 [[nodiscard]] std::optional<ProofMoment> moment_of(const ProofFinding& finding, const Scene& scene);
 
 }  // namespace firstcontact::detail

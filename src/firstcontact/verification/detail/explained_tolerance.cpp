@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kOfSize = 0x1p-31;   // [-]  Checks take 2^-34 of the sizes at most.
 constexpr double kOfSpeed = 0x1p-46;  // [-]  Checks take 2^-49 of the way in a step at most.
-constexpr double kOfErrors = 0x1p6;   // [-]  Of what is not known of the motion itself.
+constexpr double kOfErrors = 0x1p6;   // [-]  Factor of the errors of the motion itself.
 
 double explained_by(const CourseGeometry& geometry, const CoveredMotion& motion, double margin) {
   const double half = 0.5 * (motion.to() - motion.from());

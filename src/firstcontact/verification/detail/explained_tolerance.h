@@ -1,5 +1,5 @@
 /// @file
-/// The tolerance that the rounding of doubles explains, for a contact that states one of its own.
+/// The tolerance that the rounding of doubles explains, for a contact with a tolerance of its own.
 
 #pragma once
 
@@ -9,13 +9,12 @@ namespace firstcontact::detail {
 
 class SceneCourses;
 
-/// [m]  The part of one member in what doubles explain, over the whole step; that of a pair is the
-/// sum of both, and at least the tolerance that was asked.
+/// [m]  The share of one member in the explained tolerance, over the whole step.
 ///
-/// A check takes a larger tolerance than the asked one for two reasons. Distances are not told
-/// apart below a share of the sizes and places of the two, and no time below 2^-53 of the step,
-/// in which fast members go further. Both shares here are 8 times what a check takes at most, or
-/// more.
+/// That of a pair is the sum of both, and at least the tolerance that was asked for. A check takes
+/// a larger tolerance for two reasons. It does not distinguish distances below a share of the sizes
+/// and places of the two. It does not distinguish times below 2^-53 of the step, in which fast
+/// members move farther. Both shares here are at least 8 times the greatest that a check takes.
 [[nodiscard]] double explained_tolerance(const SceneCourses& courses, std::size_t member);
 
 }  // namespace firstcontact::detail

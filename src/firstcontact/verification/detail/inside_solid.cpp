@@ -6,7 +6,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Rays without any symmetry; a second one is needed where one passes an edge too closely.
+/// Rays without any symmetry; another one is needed where a ray passes an edge too closely.
 constexpr std::array<std::array<double, 3>, 6> kRays = {{{0.4183, 0.7411, 0.5251},
                                                          {-0.6347, 0.3089, -0.7083},
                                                          {0.2213, -0.8737, 0.4331},
@@ -14,7 +14,7 @@ constexpr std::array<std::array<double, 3>, 6> kRays = {{{0.4183, 0.7411, 0.5251
                                                          {0.7573, -0.2887, -0.5857},
                                                          {-0.1871, 0.5923, 0.7837}}};
 
-/// -1, 0 or 1 where the sign is certain, 0 exactly zero.
+/// The sign of an interval: -1, 0 or 1 where it is certain; 0 only for exactly zero.
 std::optional<int> sign(const Interval& x) {
   if (x.lower() > 0.0) {
     return 1;
@@ -25,8 +25,8 @@ std::optional<int> sign(const Interval& x) {
   return x == Interval(0.0) ? std::optional<int>(0) : std::nullopt;
 }
 
-/// How the ray from the origin along `ray` meets a triangle: 1 as it leaves, -1 as it enters, 0 if
-/// it does not.
+/// The crossing of a triangle by the ray from the origin along `ray`: 1 leaving, -1 entering, 0 for
+/// none.
 std::optional<int> crossing(const std::array<IntervalVector3, 3>& a, const IntervalVector3& ray) {
   bool left = false;
   bool right = false;
@@ -38,7 +38,7 @@ std::optional<int> crossing(const std::array<IntervalVector3, 3>& a, const Inter
     certain = certain && side && *side != 0;
   }
   if (left && right) {
-    return 0;  // The line passes the triangle by.
+    return 0;  // The line passes beside the triangle.
   }
   if (!certain) {
     return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<int> crossing(const std::array<IntervalVector3, 3>& a, const Inter
     return std::nullopt;
   }
   const int direction = left ? 1 : -1;
-  return *volume == direction ? direction : 0;  // Else the triangle lies behind.
+  return *volume == direction ? direction : 0;  // Otherwise the triangle lies behind.
 }
 
 std::optional<int> winding(const Mesh& mesh, const IntervalVector3& p, const IntervalVector3& ray) {

@@ -10,10 +10,11 @@
 
 namespace firstcontact::detail {
 
-/// Whether the triangles wind around the point: proven either way; nothing where the point is
-/// too close to them to tell.
+/// Whether the triangles wind around the point, proven either way.
 ///
-/// @param mesh  closed, its triangles agree on their inner side
+/// There is no answer where the point is too close to them.
+///
+/// @param mesh  closed; its triangles agree on their inner side
 /// @param p     [m]  contains the point, in the mesh's frame
 [[nodiscard]] std::optional<bool> is_inside(const Mesh& mesh, const IntervalVector3& p);
 

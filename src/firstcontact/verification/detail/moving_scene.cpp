@@ -18,20 +18,20 @@
 namespace firstcontact::detail {
 namespace {
 
-/// How far the length of a quaternion may be from 1, as in scenes.
+/// [-]  Greatest difference of the length of a quaternion from 1, as in scenes.
 constexpr double kUnit = 1e-6;
 
-/// [rad or m]  How far joints may be beyond their limits, as in limit_report().
+/// [rad or m]  Most by which joints may be beyond their limits, as in limit_report().
 constexpr double kLimitTolerance = 1e-9;
 
-/// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
+/// Requires that no joint that mimics a coordinate with the short way shows whole turns.
 void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
   if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
     throw BrokenPath("The coordinate " + in_quotes(name) + " cannot turn the short way.");
   }
 }
 
-/// Straight edges keep the limits that their ends keep, and so do joints that mimic.
+/// Requires positions within limits; straight edges and mimic joints keep the limits of the ends.
 void require_limits(const RobotModel& model, std::size_t joint, double position) {
   const Joint& moved = model.joints()[joint];
   const bool has_limits = moved.type == JointType::revolute || moved.type == JointType::prismatic ||
@@ -50,7 +50,7 @@ void require_limits(const RobotModel& model, std::size_t joint, double position)
   }
 }
 
-/// [rad or m]  Where the scene has a joint of a robot at rest.
+/// [rad or m]  The position of a robot's joint at rest in the scene.
 double position_in_scene(const SceneRobot& robot, const std::string& name) {
   const JointCoordinate which = find_coordinate(robot.model, name);
   const auto found = robot.state.find(coordinate_name(robot.model, which));
@@ -63,7 +63,9 @@ LoadedScene load(const PlannedPath& path) {
   return load_scene_of(path, cache);
 }
 
-/// The file is about edges of the mover alone. A state of joints is a trajectory of one point.
+/// Requires that all but the mover rest: the file is about edges of the mover alone.
+///
+/// A state of joints is a trajectory of one point.
 void require_at_rest(const Scene& scene) {
   const auto rests = [](const BodyMotion& motion) {
     return std::holds_alternative<FixedMotion>(motion);
@@ -91,7 +93,7 @@ void require_unheld_motion(const Scene& scene) {
   }
 }
 
-/// The mover has no motion of its own.
+/// Requires that the mover has no motion of its own.
 void require_own_rest(bool rests, const std::string& name) {
   if (!rests) {
     throw BrokenPath("The mover " + in_quotes(name) + " moves by itself.");
@@ -142,7 +144,7 @@ void MovingScene::require_times() const {
   const std::vector<double>& times = path_.times;
   const bool increase =
       std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-  // What is proven divides by the duration: quotients that are one leave an edge of no length.
+  // The proof divides by the duration: equal quotients would leave an edge of no length.
   const double duration = loaded_.scene.duration;
   for (std::size_t k = 0; k + 1 < times.size(); ++k) {
     if (!(times[k] / duration < times[k + 1] / duration)) {
@@ -216,7 +218,7 @@ void MovingScene::move_joint(std::size_t column, SceneRobot& robot, std::size_t 
 void MovingScene::find_moving(const SceneRobot& robot, std::size_t number) {
   const std::size_t first = first_member(loaded_.scene, number);
   for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
-    moves_[first + link] = !path_.times.empty();  // Others come near whatever rests.
+    moves_[first + link] = !path_.times.empty();  // Other members come near any resting one.
     for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
          joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
       moves_[first + link] = is_in_trajectory(robot, *joint);

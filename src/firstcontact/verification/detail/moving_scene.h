@@ -20,7 +20,7 @@ struct PlannedPath;
 
 namespace firstcontact::detail {
 
-/// A path that contradicts itself or its scene. One sentence.
+/// The error that a path contradicts itself or its scene. One sentence.
 class BrokenPath : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -36,13 +36,13 @@ class MovingScene {
   [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
   [[nodiscard]] const std::map<std::size_t, Turnings>& turnings() const { return turnings_; }
 
-  /// The body that moves; none where a robot does.
+  /// The body that moves; none where a robot moves.
   [[nodiscard]] std::optional<std::size_t> body() const { return body_; }
 
   /// Whether a member moves along edges.
   [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
 
-  /// [s]  Of a waypoint.
+  /// [s]  The time of a waypoint.
   [[nodiscard]] double time(std::size_t waypoint) const;
 
  private:
@@ -57,7 +57,7 @@ class MovingScene {
   const PlannedPath& path_;
   LoadedScene loaded_;
   std::map<std::size_t, Turnings> turnings_;
-  std::vector<bool> moves_;  // Of each member.
+  std::vector<bool> moves_;  // For each member.
   std::optional<std::size_t> body_ = {};
 };
 

@@ -8,12 +8,12 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Covers the roundings of a position.
+/// [-]  Covers the roundings of a position.
 constexpr double kRounding = 0x1p-40;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Around the body as it stands, or around all that it can turn to.
+/// A box around the body at its pose, or around all of its rotations.
 Eigen::AlignedBox3d box_at(const RunMember& member, const BodyInstant& now, bool turns) {
   const BoxNode& root = member.tree.nodes[0];
   const Eigen::Vector3d centre =
@@ -39,7 +39,7 @@ Eigen::AlignedBox3d swept_box(const RunMember& member, const FollowedBody& body)
   const Eigen::Vector3d jump = Eigen::Vector3d::Constant(body.jump);
   const Eigen::AlignedBox3d all(Eigen::Vector3d(box.min() - jump),
                                 Eigen::Vector3d(box.max() + jump));
-  // What overflows may be anywhere.
+  // A body whose numbers overflow may be anywhere.
   const Eigen::Vector3d infinite = Eigen::Vector3d::Constant(kInfinity);
   const bool finite = all.min().allFinite() && all.max().allFinite();
   return finite ? all : Eigen::AlignedBox3d(Eigen::Vector3d(-infinite), infinite);

@@ -1,5 +1,5 @@
 /// @file
-/// Which bodies of a step can come near each other at all.
+/// The bodies of a step that can come near each other.
 
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace firstcontact::detail {
 
-/// Holds the body during the whole step.
+/// A box that holds the body during the whole step.
 [[nodiscard]] Eigen::AlignedBox3d swept_box(const RunMember& member, const FollowedBody& body);
 
-/// All pairs of boxes that are no farther from each other than `reach` along every axis, in order.
+/// Finds all pairs of boxes that are no farther from each other than `reach` along every axis, in
+/// order.
 ///
 /// @param reach  [m]  may be infinite
 [[nodiscard]] std::vector<BodyPair> near_pairs(const std::vector<Eigen::AlignedBox3d>& boxes,

@@ -20,23 +20,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The relative error of what was promised.
+/// [-]  Relative error of the promised distance.
 constexpr double kPromiseError = 0x1p-20;
 
-/// How closely the least distance is found.
+/// [-]  Relative precision of the least distance.
 constexpr double kPrecision = 0.05;
 
-/// So often a step is halved to find the least distance; and to prove what was promised.
+/// Number of halvings of a step to find the least distance; and to prove the promise.
 constexpr int kFineDepth = 24;
 constexpr int kDeepest = 50;
 
-/// [-]  A gap falls in half of a window by this part of what it falls in all of it, or less.
+/// [-]  Greatest fall of a gap in half of a window, by its fall in all of it.
 constexpr double kLossOfHalf = 0.5;
 
-/// So many tests of boxes or triangles come between two looks at the stop token.
+/// Number of tests of boxes or triangles between two looks at the stop token.
 constexpr std::size_t kStopInterval = 4096;
 
-/// Covers the roundings of a velocity and of what follows from it.
+/// [-]  Factor that covers the roundings of a velocity and its consequences.
 constexpr double kUp = 1.0 + 0x1p-40;
 
 class Cover {
@@ -59,7 +59,7 @@ class Cover {
       const double end = std::min(A.to(), B.to());
       const double from = std::max({options_.from, A.from(), B.from()});
       const double to = std::min(options_.to, end);
-      // Pieces that only touch the times that are asked are of no interest.
+      // Pieces that only touch the time of the proof are of no interest.
       const bool touches = !is_instant && from == to && (end == options_.from || to < end);
       if (from <= to && !touches) {
         cover(A, B, from, to);
@@ -86,20 +86,20 @@ class Cover {
     double from = 0.0;
     double to = 0.0;
     int depth = 0;
-    std::vector<NodePair> pairs;  // What is not proven of it yet.
+    std::vector<NodePair> pairs;  // Pairs that are not proven in it yet.
   };
-  /// What holds for a whole window.
+  /// Numbers that hold for a whole window.
   struct Setting {
     WindowBody A;
     WindowBody B;
-    double time = 0.0;      // [s]  Its middle.
-    double half = 0.0;      // [s]
-    double error = 0.0;     // [m]  Of every gap along a direction, thickness and jumps included.
-    double drift = 0.0;     // [m]  What rounded velocities may add up to.
+    double time = 0.0;   // [s]  Middle of the window.
+    double half = 0.0;   // [s]
+    double error = 0.0;  // [m]  Error of every gap along a direction, thickness and jumps included.
+    double drift = 0.0;  // [m]  Sum of the errors of rounded velocities.
     double promised = 0.0;  // [m]
-    double enough = 0.0;    // [m]  What was promised, but for errors.
+    double enough = 0.0;    // [m]  The promised distance, without errors.
     bool can_split = false;
-    bool refines = false;  // For the least distance.
+    bool refines = false;  // Whether the least distance is searched for.
   };
 
   void cover(const CoveredMotion& A, const CoveredMotion& B, double from, double to) {
@@ -140,7 +140,7 @@ class Cover {
     const double size = s.A.now.pivot.norm() + s.A.reach + s.B.now.pivot.norm() + s.B.reach;
     const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
     const double tracking = s.A.tracking() + s.B.tracking();
-    // The directions are unit vectors but for as much.
+    // The directions are unit vectors up to these errors.
     const double rounding =
         s.A.error() + s.B.error() + (kPositionRounding + 2.0 * turn_errors) * size;
     s.error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
@@ -152,7 +152,7 @@ class Cover {
     return s;
   }
 
-  /// [m]  A bound that shows the promise.
+  /// [m]  A bound that proves the promise.
   [[nodiscard]] double enough(const Setting& s) const {
     const auto beyond = [](double distance) {
       return std::nextafter(distance, std::numeric_limits<double>::infinity());
@@ -164,10 +164,10 @@ class Cover {
     return std::max(kept, beyond(std::max(0.0, options_.exceeded.value_or(0.0))));
   }
 
-  /// [m]  The bodies are apart by their triangles' gap less this.
+  /// [m]  The distance of the bodies is the gap of their triangles less this.
   [[nodiscard]] double thickness() const { return A_.thickness + B_.thickness; }
 
-  /// From here on a bound is of no interest, once it is enough.
+  /// [m]  The distance from which a bound is of no interest, once it proves the promise.
   [[nodiscard]] double fine() const {
     return options_.finds_least ? (1.0 - kPrecision) * result_.seen : 0.0;
   }
@@ -183,7 +183,7 @@ class Cover {
 
   void accept(double bound) { result_.least = std::min(result_.least, bound); }
 
-  /// Proves the pair for the window, or leaves parts of it to shorter windows.
+  /// Proves the pair for the window, or leaves pairs below it to shorter windows.
   void visit(const NodePair& pair, const Setting& s, std::vector<NodePair>& left) {
     stack_.assign(1, pair);
     while (!stack_.empty() && result_.outcome == CoverOutcome::proven) {
@@ -217,7 +217,7 @@ class Cover {
     } else if (gap.loss < size(a, b) || !s.can_split) {
       descend(pair, a, b, s);
     } else {
-      left.push_back(pair);  // It moves farther than it is large.
+      left.push_back(pair);  // It moves farther than its size.
     }
   }
 
@@ -241,8 +241,8 @@ class Cover {
     stack_.push_back(children[nearer]);
   }
 
-  /// Along the line of the centres, then along the axes of both boxes, until it is as wanted. The
-  /// one that says most.
+  /// The best gap along the line of the centres, then along the axes of both boxes, until it is as
+  /// wanted.
   [[nodiscard]] GapBound box_gap(const WindowBox& a, const WindowBox& b, const Setting& s,
                                  double wanted) const {
     const Vector3d between = b.centre - a.centre;
@@ -266,7 +266,7 @@ class Cover {
             fall(rate, bend, s)};
   }
 
-  /// [m]  How far a gap can fall within a window where it falls at `rate` in the middle.
+  /// [m]  Bound of the fall of a gap within a window, with its `rate` in the middle.
   [[nodiscard]] static double fall(double rate, double bend, const Setting& s) {
     return kUp * (s.half * rate + 0.5 * s.half * s.half * bend) + s.drift;
   }
@@ -302,7 +302,7 @@ class Cover {
         return true;
       }
       if (gap.middle - kLossOfHalf * gap.loss >= s.enough && s.can_split) {
-        return false;  // Half of the window is all that it takes.
+        return false;  // Half of the window suffices.
       }
     }
     const PointPair closest = closest_estimate(A.corners, B.corners);
@@ -326,7 +326,7 @@ class Cover {
     return true;
   }
 
-  /// Along the normals of both faces, until one shows what was promised.
+  /// The gap along the normals of both faces, until one proves the promise.
   [[nodiscard]] GapBound beside_a_face(const PlacedTriangle& A, const PlacedTriangle& B,
                                        const Setting& s) const {
     const Vector3d between = B.middle() - A.middle();
@@ -347,7 +347,7 @@ class Cover {
     if (options_.promise == Promise::kept) {
       return seen < s.enough;
     }
-    // Of two points that surely belong to the triangles. The sum of the errors is rounded, too.
+    // For two points that surely belong to the triangles. The sum of the errors is rounded, too.
     const auto surely = [&] {
       const Vector3d between =
           point_on_triangle(A.corners, closest.on_A) - point_on_triangle(B.corners, closest.on_B);
@@ -373,9 +373,11 @@ class Cover {
     return corners;
   }
 
-  /// Along the line of the closest points, then along the normals of the faces, in whose planes
-  /// triangles may move for long. Where rounding blurs that line too much for what is wanted, also
-  /// along the normals of the edges two by two, which stay precise at any small distance.
+  /// The bound of two triangles along the line of the closest points, then along the normals of the
+  /// faces.
+  ///
+  /// Triangles may move in the planes of faces for long. Rounding may blur that line too much. Then
+  /// the products of the edges two by two are tried, too, which stay precise at any small distance.
   [[nodiscard]] double triangle_bound(const PlacedTriangle& A, const PlacedTriangle& B,
                                       const PointPair& closest, const Setting& s,
                                       double wanted) const {
@@ -392,7 +394,7 @@ class Cover {
       offer(n.dot(between) < 0.0 ? Vector3d(-n) : n);
     }
     if (best >= wanted || straight.middle >= wanted) {
-      return best;  // Shorter windows are all that it takes.
+      return best;  // Shorter windows suffice.
     }
     for (const Vector3d& n : normals) {
       offer(n.dot(between) < 0.0 ? n : Vector3d(-n));
@@ -407,7 +409,7 @@ class Cover {
     return best;
   }
 
-  /// The least gap of each two corners, as each moves on its own.
+  /// The least gap of each two corners, each with its own motion.
   [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
                                             const PlacedTriangle& B, const Setting& s) const {
     const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);
@@ -434,7 +436,7 @@ class Cover {
   const CoverBody& B_;
   const CoverOptions& options_;
   std::size_t work_left_;
-  bool covered_ = false;  // Any time at all.
+  bool covered_ = false;  // Whether any time was covered.
   CoverResult result_;
   std::vector<NodePair> stack_;
 };

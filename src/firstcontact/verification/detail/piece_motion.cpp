@@ -6,7 +6,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Below this a rotation vector's square would underflow.
+/// Least rotation vector; the square of a shorter one would underflow.
 constexpr double kNoTurn = 0x1p-300;  // [rad]
 
 }  // namespace

@@ -17,17 +17,17 @@ namespace firstcontact::detail {
 /// The pivot moves on a line, and the body turns about it at a constant rate.
 class PieceMotion : public CoveredMotion {
  public:
-  /// @param from  [s]  where the piece begins, < piece.to
+  /// @param from  [s]  begin of the piece, < piece.to
   /// @param p_BC  [m]  the pivot
   PieceMotion(const RunPiece& piece, double from, const Eigen::Vector3d& p_BC);
 
-  /// Stays at the pose from one time to the other.
+  /// Makes a motion that stays at the pose from one time to the other.
   PieceMotion(const Pose& X_WB, double from, double to, const Eigen::Vector3d& p_BC);
 
-  /// Where the stored pose puts the body frame; a good origin.
+  /// The place of the body frame by the stored pose, as an origin.
   [[nodiscard]] const Eigen::Vector3d& position() const override { return position_; }
 
-  /// [rad]  Over the whole piece, rounded.
+  /// [rad]  The turn over the whole piece, rounded.
   [[nodiscard]] double angle() const { return angle_.midpoint(); }
 
   [[nodiscard]] IntervalTransform enclosure(double time,
@@ -42,8 +42,8 @@ class PieceMotion : public CoveredMotion {
 
  private:
   Eigen::Vector3d position_;
-  IntervalMatrix3 R_;            // At the begin.
-  IntervalVector3 p_BC_W_;       // At the begin.
+  IntervalMatrix3 R_;            // Rotation at the begin.
+  IntervalVector3 p_BC_W_;       // Pivot at the begin.
   IntervalVector3 translation_;  // [m]
   IntervalVector3 axis_;
   Interval angle_{0.0};  // [rad]
@@ -51,9 +51,9 @@ class PieceMotion : public CoveredMotion {
   Eigen::Vector3d spin_ = Eigen::Vector3d::Zero();
 };
 
-/// [m]  How far at most two poses put any point of a body apart.
+/// [m]  A bound of the distance of any point of a body at two poses.
 ///
-/// @param reach  [m]  no point is farther from the pivot
+/// @param reach  [m]  bound of the distance of points from the pivot
 [[nodiscard]] double deviation_bound(const IntervalTransform& a, const IntervalTransform& b,
                                      double reach);
 

@@ -1,5 +1,5 @@
 /// @file
-/// What a proof found of a pair.
+/// The finding of a proof about a pair.
 
 #pragma once
 
@@ -9,27 +9,29 @@
 
 namespace firstcontact::detail {
 
+/// The reason of a finding.
 enum class ProofReason {
   none,
-  closer,  ///< Than the margin.
+  closer,  ///< Closer than the margin.
   inside,  ///< One begins inside of the other.
   perhaps_inside,
-  apart,      ///< At a contact: farther than the margin and the tolerance.
-  enclosed,   ///< The triangles around a curved body come closer, the body perhaps not.
-  too_close,  ///< To be told apart, or from a contact, by the arithmetic.
+  apart,      ///< At a contact: farther apart than the margin and the tolerance.
+  enclosed,   ///< The triangles around a curved body come closer, the body perhaps does not.
+  too_close,  ///< Too close for the arithmetic to distinguish from apart, or from a contact.
   work,
   stopped,
 };
 
-/// What was found of a pair. The default is that nothing contradicts the claim.
+/// The finding about a pair. By default nothing contradicts the claim.
 struct ProofFinding {
   ProofVerdict verdict = ProofVerdict::proven;
   ProofReason reason = ProofReason::none;
   BodyPair members = {};
   TimeSpan when = {};     ///< [-]
-  double distance = 0.0;  ///< [m]  For closer and a contact: no farther apart than this.
-  /// [-]  Proven is all but so much before the end of a pair's claim, in which its two bodies move
-  /// by less than 2^-38 of their size.
+  double distance = 0.0;  ///< [m]  For `closer` and for a contact: upper bound of the distance.
+  /// [-]  The unproven time before the end of a pair's claim.
+  ///
+  /// In it the pair's two bodies move by less than 2^-38 of their size.
   double left_open = 0.0;
 };
 

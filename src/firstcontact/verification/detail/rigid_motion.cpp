@@ -10,14 +10,14 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Below this the square of a rotation vector would underflow.
+/// Least rotation vector; the square of a shorter one would underflow.
 constexpr double kLeastTurn = 0x1p-300;  // [rad]
 
 IntervalVector3 zero_vector() { return {}; }
 
 IntervalVector3 negative(const IntervalVector3& v) { return Interval(-1.0) * v; }
 
-/// asin(x) of a small x: x <= asin(x) <= x (1 + x^2) for 0 <= x <= 0.5.
+/// Encloses asin(x) of a small x: x <= asin(x) <= x (1 + x^2) for 0 <= x <= 0.5.
 Interval small_arcsine(const Interval& x) {
   const double most = x.magnitude();
   if (!(most <= 0.5)) {
@@ -26,20 +26,22 @@ Interval small_arcsine(const Interval& x) {
   return x * Interval(1.0, (Interval(1.0) + sqr(Interval(most))).upper());
 }
 
-/// The angle from 0 to pi whose sine and cosine are proportional to y >= 0 and x. An estimate is
-/// corrected by the arc sine of the sine of what it is off.
+/// The angle from 0 to pi whose sine and cosine are proportional to y >= 0 and x.
+///
+/// An estimate is corrected by the arc sine of the sine of its error.
 Interval angle_of(const Interval& y, const Interval& x) {
   const Interval estimate(std::atan2(y.midpoint(), x.midpoint()));
   const Interval r = sqrt(sqr(x) + sqr(y));
   return estimate + small_arcsine((y * cos(estimate) - x * sin(estimate)) / r);
 }
 
-/// Below this half angle series are more precise than quotients of sines. [rad]
+/// Half angle below which series are more precise than quotients of sines [rad].
 constexpr double kSmallAngle = 0x1p-10;
 
-/// sin(s x) / (s sin(x)) - 1 for 0 <= s <= 1. Where x is small it is x^2 (1 - s^2) / 6 times at
-/// least 1 and at most 1 + x^2 / 2: the next term is x^2 (7 - 3 s^2) / 60 times that, and all
-/// others are positive and fall as quickly.
+/// Encloses sin(s x) / (s sin(x)) - 1 for 0 <= s <= 1.
+///
+/// For small x it is x^2 (1 - s^2) / 6 times a number from 1 to 1 + x^2 / 2. The next term is x^2
+/// (7 - 3 s^2) / 60 times that. All others are positive and fall as quickly.
 Interval sine_ratio_less_one(const Interval& s, const Interval& x) {
   if (x.magnitude() <= kSmallAngle) {
     const Interval square = sqr(x);
@@ -50,7 +52,7 @@ Interval sine_ratio_less_one(const Interval& s, const Interval& x) {
   return ratio - Interval(1.0);
 }
 
-/// The signs of the components, as far as they decide which way an axis points.
+/// The sign of the first component that is not zero; it decides which way an axis points.
 int first_sign(const IntervalVector3& v) {
   for (const Interval& component : v.c) {
     if (component.lower() > 0.0) {
@@ -114,16 +116,16 @@ IntervalVector3 RigidMotion::turned(const IntervalVector3& v, const Interval& an
   return angle == Interval(0.0) ? v : firstcontact::rotated(turn_.axis, angle, v);
 }
 
-/// Of a vector by a turn. Precise where the turn is small, as `turned` less the vector is not.
+/// The change of a vector by a turn, precise for small turns, as `turned` less the vector is not.
 IntervalVector3 RigidMotion::change(const IntervalVector3& v, const Interval& angle) const {
   const IntervalVector3 once = cross(turn_.axis, v);
   const Interval versine = Interval(2.0) * sqr(sin(Interval(0.5) * angle));
   return sin(angle) * once + versine * cross(turn_.axis, once);
 }
 
-// Of an arc: the chord to the part s of an angle w is sin(s w / 2) / sin(w / 2) as long as the
-// whole one, and is turned against it by (s - 1) w / 2. What it adds to s times the chord is small
-// where w is, and so is what an uncertain axis does to it.
+// For an arc the chord to the part s of an angle w is sin(s w / 2) / sin(w / 2) as long as the
+// whole one, and is turned against it by (s - 1) w / 2. The difference from s times the chord is
+// small where w is, and so is the effect of an uncertain axis on it.
 IntervalTransform RigidMotion::enclosure(double time, const Eigen::Vector3d& origin) const {
   const Interval s = part(time);
   const Interval angle = s * turn_.angle;
@@ -197,7 +199,7 @@ Turn least_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   if (a == b || a == -b) {
     return {};
   }
-  // to conj(from), of any length.
+  // Up to conj(from), of any length.
   const IntervalVector3 p = enclose(Eigen::Vector3d(from.vec()));
   const IntervalVector3 q = enclose(Eigen::Vector3d(to.vec()));
   const Interval p_w(from.w());
@@ -227,7 +229,7 @@ RigidMotion motion_between(double from, double to, const Pose& X_from, const Pos
   if (between == Between::screw && turn.angle != Interval(0.0)) {
     way.across = way.translation - dot(way.translation, turn.axis) * turn.axis;
   } else if (between == Between::screw && turn.off > 0.0) {
-    // The arc is within a quarter of the angle times the way of its chord.
+    // The arc differs from its chord by at most a quarter of the angle times the chord.
     way.translation =
         inflated(way.translation, (norm(way.translation) * Interval(turn.off)).upper());
   }

@@ -17,7 +17,7 @@
 
 namespace firstcontact::detail {
 
-/// Where arithmetic cannot tell which of two motions is meant, as for nearly half a turn.
+/// The error that arithmetic cannot decide between two motions, as for nearly half a turn.
 class UncertainMotion : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,17 +27,18 @@ class UncertainMotion : public std::runtime_error {
 struct Turn {
   IntervalVector3 axis;
   Interval angle{0.0};  ///< [rad]
-  double off = 0.0;  ///< [rad]  A turn too small for an axis: it is left out, and is at most that.
+  double off = 0.0;     ///< [rad]  Bound of a turn that is too small for an axis, and is left out.
 };
 
-/// The way of the body's origin, beside the turn of the body.
+/// The motion of the body's origin, besides the turn of the body.
 struct OriginWay {
-  /// [m]  On a line; along the axis where there is a centre; the chord of an arc.
+  /// [m]  A line; along the axis where there is a centre; the chord of an arc.
   IntervalVector3 translation;
-  /// [m]  From the origin at the begin to a point of the axis, about which the origin turns too.
+  /// [m]  From the origin at the begin to a point of the axis about which the origin turns, too.
   std::optional<IntervalVector3> to_axis = {};
-  /// [m]  Or, of an arc about an axis that may be far away, the part of the chord across the axis.
-  /// The turn is not zero.
+  /// [m]  For an arc about an axis that may be far away: the part of the chord across the axis.
+  ///
+  /// The turn is then not zero.
   std::optional<IntervalVector3> across = {};
 };
 
@@ -54,17 +55,17 @@ class RigidMotion : public CoveredMotion {
   [[nodiscard]] BodyInstant around(double time, double half,
                                    const Eigen::Vector3d& origin) const override;
 
-  /// Any point of the body may be so far off its nominal place. [m]
+  /// Sets how far any point of the body may be off its nominal place [m].
   void set_tracking(double tracking) { tracking_ = tracking; }
 
-  /// Whether it never moves.
+  /// Whether the motion is a rest.
   [[nodiscard]] bool rests() const;
 
-  /// What a chain of joints needs of its base.
+  /// The rates that a chain of joints needs of its base.
   struct Rates {
-    IntervalVector3 velocity;  ///< Of the pivot.
+    IntervalVector3 velocity;  ///< Velocity of the pivot.
     IntervalVector3 spin;
-    double lever = 0.0;  ///< [m]  The pivot is no farther from the axis.
+    double lever = 0.0;  ///< [m]  Bound of the distance of the pivot from the axis.
   };
   [[nodiscard]] Rates rates(double time) const;
 
@@ -74,11 +75,11 @@ class RigidMotion : public CoveredMotion {
   [[nodiscard]] IntervalVector3 change(const IntervalVector3& v, const Interval& angle) const;
 
   Eigen::Vector3d position_;
-  IntervalMatrix3 R_;       // At the begin.
-  IntervalVector3 p_BC_W_;  // At the begin.
+  IntervalMatrix3 R_;       // Rotation at the begin.
+  IntervalVector3 p_BC_W_;  // Pivot at the begin.
   OriginWay way_;
   Turn turn_;
-  Interval half_sine_{0.0};   // Of an arc.
+  Interval half_sine_{0.0};   // Only for an arc.
   IntervalVector3 spin_;      // Per unit of time.
   Interval per_length_{1.0};  // 1 / (to - from)
   double lever_ = 0.0;
@@ -88,8 +89,9 @@ class RigidMotion : public CoveredMotion {
 /// The turn of a rotation vector [rad].
 [[nodiscard]] Turn turn_of(const Eigen::Vector3d& rotation_vector);
 
-/// The shortest turn from one orientation to another; of half a turn that about the axis whose
-/// first component that is not zero is positive.
+/// The shortest turn from one orientation to another.
+///
+/// Half a turn is that about the axis whose first component that is not zero is positive.
 ///
 /// @throws UncertainMotion
 [[nodiscard]] Turn least_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);

@@ -11,7 +11,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Makes the courses of coordinates of a robot from what its scene says of them.
+/// Makes the courses of a robot's coordinates from its scene.
 class Coordinates {
  public:
   Coordinates(const SceneRobot& robot, double duration, const Turnings& turnings)
@@ -75,7 +75,8 @@ class Coordinates {
   const Turnings& turnings_;
 };
 
-/// x and y, turned by the shortest rotation that takes z to n; x and -y where n is -z.
+/// The directions x and y, turned by the shortest rotation that takes z to n; x and -y where n is
+/// -z.
 std::array<IntervalVector3, 2> across_directions(const IntervalVector3& n) {
   const Interval one(1.0);
   const IntervalVector3 x{{one, Interval(0.0), Interval(0.0)}};
@@ -150,7 +151,8 @@ void RobotCourse::add_joint(const SceneRobot& robot, std::size_t index, double d
   joints_.push_back(std::move(course));
 }
 
-/// A joint that mimics another errs by as much, times its multiplier; a screw slides, too.
+/// The tracking error of a joint. A mimic joint errs by that of its leader times its multiplier; a
+/// screw slides, too.
 TrackingError RobotCourse::error_of(const SceneRobot& robot, std::size_t index) const {
   constexpr double kUpwards = 1.0 + 0x1p-48;
   double multiplier = 1.0;
@@ -219,7 +221,7 @@ CoveredMotions RobotCourse::motions(std::optional<std::size_t> frame, std::size_
     }
     const double middle = 0.5 * (breaks_[k] + breaks_[k + 1]);
     std::vector<ChainJoint> chain;
-    std::optional<IntervalTransform> fixed;  // Of joints that do not move.
+    std::optional<IntervalTransform> fixed;  // Only for joints that do not move.
     const auto after_fixed = [&](const IntervalTransform& X) { return fixed ? *fixed * X : X; };
     for (const std::size_t index : between) {
       const JointCourse& joint = joints_[index];

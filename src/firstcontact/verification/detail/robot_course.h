@@ -1,5 +1,5 @@
 /// @file
-/// The verifier's own course of a robot: every coordinate over the scene, and what hangs on it.
+/// The verifier's own course of a robot: every coordinate over the scene, and the links.
 
 #pragma once
 
@@ -23,10 +23,10 @@ namespace firstcontact::detail {
 
 using CoveredMotions = std::vector<std::shared_ptr<const CoveredMotion>>;
 
-/// How coordinates turn, by their names, where that is not as the trajectory has it.
+/// The turnings of coordinates by their names, where they differ from the trajectory's.
 using Turnings = std::map<std::string, Turning>;
 
-/// Keeps what its motions refer to: it is not moved.
+/// The course of a robot over a scene. Its motions refer to it, so it is not moved.
 class RobotCourse {
  public:
   /// @param duration  [s]  of the scene
@@ -35,23 +35,24 @@ class RobotCourse {
   RobotCourse(const RobotCourse&) = delete;
   RobotCourse& operator=(const RobotCourse&) = delete;
 
-  /// Where pieces of coordinates, or of the base, end; 0 and 1 are among them.
+  /// The times at which pieces of coordinates, or of the base, end; with 0 and 1.
   [[nodiscard]] const std::vector<double>& breaks() const { return breaks_; }
 
   [[nodiscard]] bool has_tracking_errors() const { return has_tracking_errors_; }
 
-  /// The link farthest from the root that both links hang on, or are.
+  /// The link farthest from the root on which both links hang; one of them if the other hangs on
+  /// it.
   [[nodiscard]] std::size_t common_ancestor(std::size_t link, std::size_t other) const;
 
   /// The motions of a point of a link, one after another, over a window of time.
   ///
-  /// @param frame  the link that they are seen from, on which the other one hangs; or the world
-  /// @param X_LP   of the pivot in the link
+  /// @param frame  the link from which they are seen, on which the other one hangs; or the world
+  /// @param X_LP   transform of the pivot in the link
   [[nodiscard]] CoveredMotions motions(std::optional<std::size_t> frame, std::size_t link,
                                        const IntervalTransform& X_LP, double from, double to) const;
 
  private:
-  /// Of a joint: its angle, and what it slides along.
+  /// The course of a joint: its angle, and its slides.
   struct JointCourse {
     IntervalTransform X_PJ;
     IntervalVector3 axis;

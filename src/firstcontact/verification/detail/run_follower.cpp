@@ -10,11 +10,11 @@
 namespace firstcontact::detail {
 namespace {
 
-/// What the rounding of a recorded pose may amount to, of what it holds: a dozen operations on
-/// coordinates, a quaternion that was made of a matrix, and some room.
+/// [-]  Rounding of a recorded pose, by its numbers: a dozen operations on coordinates, a
+/// quaternion that was made of a matrix, and some room.
 constexpr double kPoseRounding = 0x1p-44;
 
-/// The times of a run are sums of what its steps lasted.
+/// [-]  Rounding of the times of a run, which are sums of the durations of its steps.
 constexpr double kTimeRounding = 0x1p-40;
 
 std::string number(double x) {
@@ -96,7 +96,7 @@ FollowedBody RunFollower::follow_body(const RunStep& step, const RunBody& body) 
   double from = 0.0;
   for (const RunPiece& piece : body.pieces) {
     if (step.lasted == 0.0 && piece.to == 0.0) {
-      continue;  // Nothing moves in no time.
+      continue;  // In no time nothing moves.
     }
     if (!(piece.to > from)) {
       throw BrokenRun("\"" + members_[b].name + "\" goes back in time at " + number(time_ + from) +
@@ -134,7 +134,7 @@ double RunFollower::jump(std::size_t body, const PieceMotion& from, double from_
   const double reach = member.tree.nodes[0].reach;
   const double deviation =
       deviation_bound(from.enclosure(from_time, origin), to.enclosure(to_time, origin), reach);
-  const double turn = 1.0 + from.angle() + to.angle();  // As sines of large angles err by more.
+  const double turn = 1.0 + from.angle() + to.angle();  // Sines of large angles err by more.
   const double size = to.position().norm() + origin.norm() + turn * (member.p_BC.norm() + reach);
   if (!(deviation <= kPoseRounding * size)) {
     throw BrokenRun("\"" + member.name + "\" jumps by " + number(deviation) + " m at " +
@@ -153,8 +153,10 @@ ScriptDeviation RunFollower::deviation_of(std::size_t body, const PieceMotion& p
                           member.tree.nodes[0].reach);
 }
 
-/// At its end a step is where the script is; before, and where it ended early, within what lies
-/// between a script and straight pieces.
+/// Requires that a scripted body follows its script.
+///
+/// At its end a step is at the script's place. Within it, and where it ended early, it is within
+/// the distance between a script and straight pieces.
 void RunFollower::require_scripted(std::size_t body, const PieceMotion& piece,
                                    const RunStep& step) {
   if (members_[body].is_free) {
@@ -171,9 +173,9 @@ void RunFollower::require_scripted(std::size_t body, const PieceMotion& piece,
   scripted_deviation_ = std::max(scripted_deviation_, deviation.within);
 }
 
-/// A body that waited in a step, or whose script came back to it, ends about where its script was.
+/// Requires that a body that waited in a step, or whose script came back to it, is near its script.
 ///
-/// @param end  of the step
+/// @param end  end of the step
 void RunFollower::require_behind(const RunBody& body, const PieceMotion& end, const RunStep& step) {
   const RunMember& member = members_[body.body];
   behind_[body.body] = body.behind;

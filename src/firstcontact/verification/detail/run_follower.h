@@ -1,5 +1,5 @@
 /// @file
-/// Follows a run from step to step, and reports where its record does not hang together.
+/// Follows a run from step to step, and reports contradictions of its record.
 
 #pragma once
 
@@ -23,35 +23,36 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// A body of the scene, as the verifier sees it.
+/// A body of the scene, for the verifier.
 struct RunMember {
   std::string name;
   Shape shape;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
   BoxTree tree;
   bool is_free = false;
-  std::vector<RigidMotion> script = {};  ///< As script_of; of a body that is not free.
-  /// Why the script cannot be told; empty where it can.
+  std::vector<RigidMotion> script = {};  ///< Motion by script_of(); only for a body that is not
+                                         ///< free.
+  /// The reason why the script is uncertain; empty where it is certain.
   std::string uncertain = {};
   Pose start;
 };
 
-/// How a body moves in a step.
+/// The motion of a body in a step.
 struct FollowedBody {
-  std::vector<PieceMotion> pieces;  ///< From 0 to what the step lasted.
-  double jump = 0.0;                ///< [m]  The greatest from one to the next, or to a record.
+  std::vector<PieceMotion> pieces;  ///< Pieces from 0 to the end of the step.
+  double jump = 0.0;  ///< [m]  The greatest jump from one piece to the next, or to a record.
   bool moves = false;
 };
 
 struct FollowedStep {
   std::size_t index = 0;
-  double begin = 0.0;  ///< [s]  Since the run began.
+  double begin = 0.0;  ///< [s]  Begin since the run began.
   double lasted = 0.0;
   double clearance = 0.0;
-  std::vector<FollowedBody> bodies;  ///< All of the scene.
+  std::vector<FollowedBody> bodies;  ///< All bodies of the scene.
 };
 
-/// Why a record cannot be one of a simulation. One sentence.
+/// The error that a record cannot be one of a simulation. One sentence.
 class BrokenRun : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -60,9 +61,11 @@ class BrokenRun : public std::runtime_error {
 class RunFollower {
  public:
   /// @param members             outlive the follower
-  /// @param scripted_tolerance  [m]  within steps the contact distance comes on top
+  /// @param scripted_tolerance  [m]  within steps the contact distance is added
   RunFollower(const std::vector<RunMember>& members, const Scene& scene, double scripted_tolerance);
 
+  /// Follows a step.
+  ///
   /// @throws BrokenRun, UncertainMotion
   [[nodiscard]] FollowedStep follow(const RunStep& step);
 
@@ -81,12 +84,12 @@ class RunFollower {
   [[nodiscard]] ScriptDeviation deviation_of(std::size_t body, const PieceMotion& piece) const;
 
   const std::vector<RunMember>& members_;
-  double duration_;                         // [s]  Of the scene.
-  std::optional<double> step_length_ = {};  // [s]  Of a scene with a simulation.
+  double duration_;                         // [s]  Duration of the scene.
+  std::optional<double> step_length_ = {};  // [s]  Only for a scene with a simulation.
   double scripted_tolerance_;
-  double bend_tolerance_;       // [m]  Of scripts within steps.
-  std::vector<Pose> poses_;     // As last recorded.
-  std::vector<double> behind_;  // [s]  Likewise: so much scripts are.
+  double bend_tolerance_;       // [m]  Tolerance of scripts within steps.
+  std::vector<Pose> poses_;     // Poses as last recorded.
+  std::vector<double> behind_;  // [s]  Time by which scripts are behind, as last recorded.
   std::size_t step_ = 0;
   double time_ = 0.0;
   double greatest_jump_ = 0.0;

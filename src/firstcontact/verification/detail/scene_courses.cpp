@@ -15,10 +15,10 @@
 namespace firstcontact::detail {
 namespace {
 
-/// What rounding may put a body off when it is taken up or put down, of the sizes at hand.
+/// [-]  Rounding of a body's place when it is taken up or put down, by the sizes at hand.
 constexpr double kTakenUp = 0x1p-40;
 
-/// Covers the roundings of the sum of a few lengths.
+/// [-]  Factor that covers the roundings of the sum of a few lengths.
 constexpr double kLonger = 1.0 + 0x1p-40;
 
 IntervalTransform at_point(const Eigen::Vector3d& p) { return exact_transform({p, {1, 0, 0, 0}}); }
@@ -51,7 +51,7 @@ CoveredMotions shared(std::vector<RigidMotion> pieces) {
   return motions;
 }
 
-/// The pose that loading froze, as a body was taken up or put down at a time.
+/// The pose that loading froze when a body was taken up or put down at a time.
 Pose frozen_at(const LoadedScene& loaded, std::size_t body, double t, bool in_link) {
   for (const FrozenPose& frozen : frozen_poses(loaded, body)) {
     if (frozen.t == t && frozen.in_link == in_link) {
@@ -293,7 +293,7 @@ Eigen::AlignedBox3d SceneCourses::swept_box(const CourseGeometry& geometry,
     const Eigen::Vector3d still =
         now.R.cwiseAbs() * root.extent + Eigen::Vector3d::Constant(turned * root.reach);
     const Eigen::Vector3d centre = now.pivot + now.R * root.centre;
-    // Around the body as it stands, grown by its turn; or around all that it can turn to.
+    // A box around the body at its pose, grown by its turn; or around all of its rotations.
     const bool turns_far = turned > 1.0;
     const Eigen::Vector3d around = turns_far ? now.pivot : centre;
     const Eigen::Vector3d extent = turns_far ? Eigen::Vector3d::Constant(root.reach) : still;
@@ -305,7 +305,7 @@ Eigen::AlignedBox3d SceneCourses::swept_box(const CourseGeometry& geometry,
   if (box.min().allFinite() && box.max().allFinite()) {
     return box;
   }
-  // What overflows may be anywhere.
+  // A body whose numbers overflow may be anywhere.
   const Eigen::Vector3d infinite =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   return {Eigen::Vector3d(-infinite), infinite};

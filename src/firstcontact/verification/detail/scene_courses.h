@@ -1,5 +1,5 @@
 /// @file
-/// All that can touch in a scene, and the verifier's own courses of it over time.
+/// The geometries of a scene, and the verifier's own courses of them over time.
 
 #pragma once
 
@@ -27,16 +27,18 @@ struct CourseGeometry {
   Shape shape;
   Eigen::Vector3d p_GP = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
   std::shared_ptr<const BoxTree> tree;
-  IntervalTransform X_MP;  ///< In the frame of the member.
+  IntervalTransform X_MP;  ///< Pivot in the frame of the member.
 };
 
-/// Refers to the scene, which must outlive it.
+/// The courses of all members. Refers to the scene, which must outlive it.
 class SceneCourses {
  public:
+  /// Makes the courses of a scene.
+  ///
   /// @throws UncertainMotion; std::invalid_argument where the scene is not one of rigid bodies
   ///
   /// @param turnings  of robots, by their number
-  /// @param mover     a body that counts as one that moves, wherever it rests
+  /// @param mover     a body that counts as moving, wherever it rests
   explicit SceneCourses(const LoadedScene& loaded,
                         const std::map<std::size_t, Turnings>& turnings = {},
                         std::optional<std::size_t> mover = {});
@@ -49,12 +51,16 @@ class SceneCourses {
   [[nodiscard]] const TestedPairs& pairs() const { return *pairs_; }
   [[nodiscard]] bool has_tracking_errors() const;
 
-  /// Times at which windows of the scene may be cut: where robots' pieces end, and always where
-  /// bodies are taken up or put down; 0 and 1 included.
+  /// The times at which windows of the scene may be cut, with 0 and 1.
+  ///
+  /// They are the ends of robots' pieces, and always the times at which bodies are taken up or put
+  /// down.
   [[nodiscard]] const std::vector<double>& breaks() const { return breaks_; }
 
-  /// The motions of both, one after another, over a window that does not reach over a time at which
-  /// one of them is taken up or put down. Where both hang on one robot they are seen from a link.
+  /// The motions of both geometries of a pair, one after another, over a window.
+  ///
+  /// The window does not reach over a time at which one of them is taken up or put down. Where both
+  /// hang on one robot they are seen from a link.
   struct PairMotions {
     CoveredMotions A;
     CoveredMotions B;
@@ -62,24 +68,25 @@ class SceneCourses {
   [[nodiscard]] PairMotions motions(const CourseGeometry& A, const CourseGeometry& B,
                                     const TimeSpan& window) const;
 
-  /// The motions of one in the world.
+  /// The motions of a geometry in the world.
   [[nodiscard]] CoveredMotions motions(const CourseGeometry& geometry,
                                        const TimeSpan& window) const;
 
-  /// [m]  Around all places of a geometry in a window, in the world.
+  /// [m]  A box around all places of a geometry in a window, in the world.
   [[nodiscard]] Eigen::AlignedBox3d swept_box(const CourseGeometry& geometry,
                                               const TimeSpan& window) const;
 
  private:
-  /// How a body moves until a time.
+  /// The motion of a body until a time.
   struct Stretch {
     double from = 0.0;
     double to = 1.0;
-    std::optional<std::size_t> robot = {};  ///< That carries it;
-    std::size_t link = 0;                   ///< with this link.
+    std::optional<std::size_t> robot = {};  ///< Robot that carries it.
+    std::size_t link = 0;                   ///< Link that carries it.
     IntervalTransform X_LB = {};
-    std::vector<std::shared_ptr<const CoveredMotion>> motions = {};  ///< Else its own.
-    double tracking = 0.0;  ///< [m]  It was put down so far off.
+    std::vector<std::shared_ptr<const CoveredMotion>> motions = {};  ///< Its own motions, where no
+                                                                     ///< robot carries it.
+    double tracking = 0.0;  ///< [m]  Error with which it was put down.
   };
   struct LinkNumber {
     std::size_t robot = 0;
@@ -106,8 +113,8 @@ class SceneCourses {
   std::vector<std::unique_ptr<const RobotCourse>> robots_;
   std::vector<CourseGeometry> geometries_;
   std::vector<std::size_t> first_geometry_;
-  std::vector<std::vector<Stretch>> stretches_;  // Of each body.
-  std::vector<LinkNumber> links_;                // Of the members behind the bodies.
+  std::vector<std::vector<Stretch>> stretches_;  // For each body.
+  std::vector<LinkNumber> links_;                // For the members behind the bodies.
   std::unique_ptr<const TestedPairs> pairs_;
   std::vector<double> breaks_;
 };

@@ -17,22 +17,23 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Windows into which a scene is cut at least; and those of a scene of many shapes.
+/// Least number of windows into which a scene is cut; and that for a scene of many shapes.
 constexpr std::size_t kWindows = 8;
 constexpr std::size_t kManyWindows = 32;
 constexpr std::size_t kManyShapes = 50;
 constexpr std::size_t kFewShapes = 8;
 
-/// Pairs are proven side by side in batches of at least as many: all threads have work, and the
-/// first finding does not depend on them.
+/// Least size of the batches of pairs that are proven side by side.
+///
+/// With it all threads have work, and the first finding does not depend on them.
 constexpr std::size_t kBatch = 512;
 
-/// The way that is left open where bodies come together, of their size; and the longest moment in
-/// which they go it. [-]
+/// The displacement that is left open where bodies come together, by their size; and the longest
+/// moment for it [-].
 constexpr double kLastWay = 0x1p-38;
 constexpr double kLongestMoment = 0x1p-30;
 
-/// Behind a time at which a body is taken up or put down. [-]
+/// Time behind the one at which a body is taken up or put down [-].
 constexpr double kBehind = 0x1p-40;
 
 std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
@@ -44,7 +45,7 @@ std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
   return result;
 }
 
-/// [m]  How much nearer the triangles around two curved bodies may be than the bodies.
+/// [m]  The most by which the triangles around two curved bodies may be nearer than the bodies.
 double enclosure(const CourseGeometry& A, const CourseGeometry& B) {
   const auto of = [](const Shape& shape) {
     return shape.is_curved() ? shape.enclosure_error() : 0.0;
@@ -60,7 +61,7 @@ BodyPair in_order(const BodyPair& members) {
   return {std::min(members[0], members[1]), std::max(members[0], members[1])};
 }
 
-/// What is worse is kept; of what is as bad the earlier one.
+/// Keeps the worse finding; of equal ones the earlier one.
 void take(const ProofFinding& found, ProofFinding& kept) {
   const bool decides = found.verdict == ProofVerdict::refuted;
   if (found.verdict != ProofVerdict::proven && kept.verdict != ProofVerdict::refuted &&
@@ -77,7 +78,7 @@ void take(const ProofFinding& found, ProofFinding& kept) {
 SceneProof::SceneProof(const SceneCourses& courses, SceneProofOptions options)
     : courses_(courses), options_(std::move(options)) {}
 
-/// The times of a claim, cut into parts that are proven side by side.
+/// The time of a claim, cut into parts that are proven side by side.
 std::vector<TimeSpan> SceneProof::windows(const FreeClaim& claim) const {
   const std::vector<double>& breaks = courses_.breaks();
   std::vector<TimeSpan> spans;
@@ -90,7 +91,7 @@ std::vector<TimeSpan> SceneProof::windows(const FreeClaim& claim) const {
   const std::size_t shapes = courses_.geometries().size();
   const std::size_t of_all = breaks.size() - 1;
   const std::size_t least = shapes > kManyShapes ? kManyWindows : kWindows;
-  // Few shapes: those of a claim alone are work for all threads.
+  // With few shapes those of a single claim are work for all threads.
   const std::size_t among = shapes <= kFewShapes ? std::max<std::size_t>(spans.size(), 1) : of_all;
   const std::size_t parts = (least + among - 1) / among;
   std::vector<TimeSpan> windows;
@@ -121,7 +122,7 @@ std::vector<BodyPair> SceneProof::near(const TimeSpan& window, double reach) con
   return pairs;
 }
 
-/// [m]  No pair is claimed to keep a greater distance.
+/// [m]  The greatest distance that is claimed of any pair.
 double SceneProof::reach_of(const FreeClaim& claim) const {
   double reach = claim.clearance.value_or(0.0);
   if (claims_margins(claim)) {
@@ -136,7 +137,7 @@ double SceneProof::reach_of(const FreeClaim& claim) const {
   return reach;
 }
 
-/// [m]  The clearance that is claimed of a pair; none where none is.
+/// [m]  The claimed clearance of a pair; none where none is claimed.
 std::optional<double> SceneProof::clearance_of(const FreeClaim& claim, const BodyPair& members) {
   const auto own = claim.clearances.find(in_order(members));
   return own != claim.clearances.end() ? own->second : claim.clearance;
@@ -156,9 +157,10 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
     const bool is_held = held != claim.held.end();
     Job job{.a = pair[0], .b = pair[1], .margin = is_held ? held->second : *margin + claim.extra};
     if (clearance) {
-      // Curved bodies keep a clearance if the triangles around them keep that much less.
+      // Curved bodies keep a clearance if the triangles around them keep it less the enclosure
+      // errors.
       const double kept = *clearance - enclosure(geometries[pair[0]], geometries[pair[1]]);
-      const bool is_shown = is_held || kept <= *margin;  // It is, by the margin.
+      const bool is_shown = is_held || kept <= *margin;  // The margin proves it, too.
       if (is_shown && !claim.has_margins) {
         continue;
       }
@@ -255,8 +257,8 @@ ProofFinding SceneProof::prove(const FreeClaim& claim, const Job& job) const {
   return finding;
 }
 
-/// [-]  Before the end of a window: in it the two shapes come together by less than kLastWay of
-/// their size.
+/// [-]  The moment before the end of a window in which the two shapes come together by less than
+/// kLastWay of their size.
 double SceneProof::last_moment(const Job& job) const {
   const auto geometries = courses_.geometries();
   const CourseGeometry& A = geometries[job.a];
@@ -288,7 +290,7 @@ CoverResult SceneProof::cover(const CourseGeometry& A, const CourseGeometry& B,
                     {.tree = *B.tree, .pieces = of_B, .thickness = B.shape.radius()}, options);
 }
 
-/// What is inside of a solid when it begins to be tested would never have to cross its surface.
+/// Proves that no pair begins inside of a solid, as it would never have to cross the surface.
 ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
   const auto geometries = courses_.geometries();
   ProofFinding finding;
@@ -422,11 +424,11 @@ ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeom
     return finding;
   }
   if (nested == true) {
-    nested.reset();  // The triangles are, the bodies perhaps not.
+    nested.reset();  // One is in the triangles, the body perhaps is not.
   }
   finding.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven;
   finding.reason = nested ? ProofReason::apart : ProofReason::perhaps_inside;
-  // Also as the two are from then on, should one be taken up or put down.
+  // Also for the motions from then on, in case one is taken up or put down.
   for (const TimeSpan& window : {TimeSpan{t, t}, TimeSpan{t, std::min(1.0, t + kBehind)}}) {
     const CoverResult found = cover(A, B, window,
                                     {.promise = Promise::exceeded,

@@ -21,7 +21,8 @@ class SceneCourses;
 struct CourseGeometry;
 
 struct SceneProofOptions {
-  std::size_t work = 0;  ///< Tests of two boxes or triangles for one pair of shapes and one window.
+  std::size_t work = 0;  ///< Most tests of two boxes or triangles for one pair of shapes and one
+                         ///< window.
   int threads = 0;
   std::stop_token stop = {};
   std::function<void(double)> progress =
@@ -30,24 +31,28 @@ struct SceneProofOptions {
 
 /// The claim of a clearance or of the margins.
 struct FreeClaim {
-  /// [-]  Until when, the end included, a pair of members is to be free; below 0 for a pair that
-  /// the claim is not about.
+  /// [-]  The time until which a pair of members is free, the end included.
+  ///
+  /// It is below 0 for a pair that the claim is not about.
   std::function<double(const BodyPair&)> until;
   double from = 0.0;  ///< [-]  Nothing is claimed before it, or after `last`.
   double last = 1.0;
-  double extra = 0.0;  ///< [m]  Beyond the margin.
-  /// [m]  Pairs that keep a distance of their own in place of their margin and `extra`, strictly; a
-  /// claim of a clearance is not about them.
+  double extra = 0.0;  ///< [m]  Distance in addition to the margin.
+  /// [m]  Pairs that strictly keep a distance of their own in place of their margin and `extra`.
+  ///
+  /// A claim of a clearance is not about them.
   std::map<BodyPair, double> held = {};
-  /// [m]  In place of the margins, or beside them: a distance that pairs keep, but for 2^-20 of it
-  /// and twice the rounding.
+  /// [m]  A distance that pairs keep, in place of the margins or in addition to them.
+  ///
+  /// It is kept except for 2^-20 of it and twice the rounding.
   std::optional<double> clearance = {};
-  /// [m]  The same of some pairs, each with its own; the claim is about no others.
+  /// [m]  Such distances of single pairs; the claim is then about no others.
   std::map<BodyPair, double> clearances = {};
-  /// Whether a clearance is claimed beside the margins; then a proof is of both.
+  /// Whether the margins are claimed besides a clearance; a proof is then of both.
   bool has_margins = false;
-  /// Whether the claim of a pair ends where the pair may touch: then the last moment may be left
-  /// open (ProofFinding::left_open).
+  /// Whether the claim of a pair ends where the pair may touch.
+  ///
+  /// Then the last moment may be left open (ProofFinding::left_open).
   bool ends_in_contact = false;
 };
 
@@ -56,8 +61,9 @@ class SceneProof {
   /// @param courses  outlives this
   SceneProof(const SceneCourses& courses, SceneProofOptions options);
 
-  /// Proves that each tested pair is farther apart than its margin, or keeps the clearance that is
-  /// claimed. The first finding that contradicts it, else the first that leaves it open.
+  /// Proves that each tested pair is farther apart than its margin, or keeps the claimed clearance.
+  ///
+  /// It returns the first finding that contradicts it, else the first that leaves it open.
   [[nodiscard]] ProofFinding prove_free(const FreeClaim& claim) const;
 
   /// Proves that two members are no farther apart than margin + tolerance at a time, for their
@@ -66,18 +72,20 @@ class SceneProof {
                                            double tolerance) const;
 
   /// Proves that two members are no farther apart than a distance at a time, for their nominal
-  /// motions. Of curved bodies it is the distance of the triangles around them.
+  /// motions.
+  ///
+  /// For curved bodies it is the distance of the triangles around them.
   [[nodiscard]] ProofFinding prove_within(const BodyPair& members, double t, double distance) const;
 
  private:
   struct Job {
-    std::size_t a = 0;  // Geometries.
+    std::size_t a = 0;  // Geometries of the pair.
     std::size_t b = 0;
     TimeSpan window = {};
     double margin = 0.0;
-    std::optional<double> exceeded = {};  // [m]  Beside a clearance.
+    std::optional<double> exceeded = {};  // [m]  Distance in addition to a clearance.
     Promise promise = Promise::exceeded;
-    bool is_last = false;  // Its window ends where the claim of the pair does.
+    bool is_last = false;  // Whether its window ends with the claim of the pair.
     ProofFinding finding = {};
   };
 

@@ -10,20 +10,20 @@ namespace firstcontact::detail {
 
 namespace {
 
-/// What the roundings of a bound amount to, of it.
+/// [-]  Rounding of a bound, relative to it.
 constexpr double kBoundRounding = 0x1p-46;
 
-/// [-]  Of the duration of a scene: no run lasts longer.
+/// [-]  Longest run, by the duration of a scene.
 constexpr double kForever = 1e100;
 
-/// A piece beside a part of a script.
+/// Compares a piece with a part of a script.
 class Beside {
  public:
   Beside(const PieceMotion& piece, double begin, const RigidMotion& script, double duration,
          double reach)
       : piece_(piece), begin_(begin), script_(script), duration_(duration), reach_(reach) {}
 
-  /// From u to v [s], where both are.
+  /// The bound from u to v [s], in which both are defined.
   [[nodiscard]] double bound(double u, double v) const {
     const double half = 0.5 * (v - u);
     const double middle = u + half;
@@ -38,7 +38,7 @@ class Beside {
     return sum * (1.0 + kBoundRounding);
   }
 
-  /// At a time of both.
+  /// The distance at a time of both.
   [[nodiscard]] double at(double time) const {
     return deviation_bound(piece_.enclosure(in_piece(time), origin()),
                            script_.enclosure(in_script(time), origin()), reach_);

@@ -1,5 +1,5 @@
 /// @file
-/// How far a recorded piece is from the motion that the scene gives a body.
+/// The distance of a recorded piece from the motion that the scene gives a body.
 
 #pragma once
 
@@ -10,22 +10,22 @@
 
 namespace firstcontact::detail {
 
-/// [m]  How far at most any point of a body is from where a script has it.
+/// [m]  Bounds of the distance of any point of a body from its place in a script.
 struct ScriptDeviation {
   double within = 0.0;  ///< At any time of a piece.
-  double at_end = 0.0;  ///< When the piece ends.
+  double at_end = 0.0;  ///< At the end of the piece.
 };
 
-/// How far a piece is from a script.
+/// Bounds the distance of a piece from a script.
 ///
 /// Between two times both move at constant rates. The distance of the pivots has a second
 /// derivative of at most the sum of rate^2 lever of both. The distance of the rotations changes no
-/// faster than by the difference of the spins. Only the rounding of times is not charged.
+/// faster than by the difference of the spins. The rounding of times is not charged.
 ///
-/// @param begin     [s]  when the step of the piece begins
-/// @param script    of script_of: one after another from 0, where 1 is the duration
+/// @param begin     [s]  begin of the step of the piece
+/// @param script    result of script_of(): one motion after another from 0, where 1 is the duration
 /// @param duration  [s]
-/// @param reach     [m]  no point is farther from the pivot
+/// @param reach     [m]  bound of the distance of points from the pivot
 [[nodiscard]] ScriptDeviation script_deviation(const PieceMotion& piece, double begin,
                                                const std::vector<RigidMotion>& script,
                                                double duration, double reach);

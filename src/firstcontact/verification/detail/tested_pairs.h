@@ -1,5 +1,5 @@
 /// @file
-/// The verifier's own account of which pairs of a scene are tested, when, and with what margin.
+/// The verifier's own account of the tested pairs of a scene, with their times and margins.
 
 #pragma once
 
@@ -20,22 +20,22 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Members are numbered as those of the scene.
+/// The tested pairs. Members are numbered as those of the scene.
 class TestedPairs {
  public:
-  /// @param rests  of each body, whether it never moves
+  /// @param rests  for each body whether it never moves
   TestedPairs(const Scene& scene, const std::vector<bool>& rests);
 
   /// [m]  The margin with paddings; none where the pair is never tested.
   [[nodiscard]] std::optional<double> margin(const BodyPair& pair) const;
 
-  /// [m]  No pair has more.
+  /// [m]  The greatest margin of all pairs.
   [[nodiscard]] double greatest_margin() const { return greatest_margin_; }
 
-  /// The pairs that are held for a while.
+  /// The pairs of a body and a link that holds it for a while.
   [[nodiscard]] std::vector<BodyPair> held_pairs() const;
 
-  /// The spans of time in which a pair is tested, in order: those between its times of being held.
+  /// The spans of time in which a pair is tested, in order: those in which no link holds the body.
   [[nodiscard]] std::vector<TimeSpan> spans(const BodyPair& pair) const;
 
  private:
@@ -55,12 +55,12 @@ class TestedPairs {
   double margin_ = 0.0;
   double greatest_margin_ = 0.0;
   std::vector<bool> rests_;
-  std::vector<std::optional<LinkOf>> links_;  // Of each member.
+  std::vector<std::optional<LinkOf>> links_;  // For each member.
   std::vector<double> paddings_;
-  std::unordered_set<std::uint64_t> joined_;  // Links that one joint connects.
+  std::unordered_set<std::uint64_t> joined_;  // Pairs of links that one joint connects.
   std::unordered_set<std::uint64_t> ignored_;
   std::unordered_map<std::uint64_t, double> margins_;
-  std::vector<std::vector<std::size_t>> groups_of_;  // Of each member.
+  std::vector<std::vector<std::size_t>> groups_of_;  // For each member.
   std::unordered_set<std::uint64_t> ignored_groups_;
   std::unordered_map<std::uint64_t, double> group_margins_;
   std::map<BodyPair, std::vector<TimeSpan>> held_;

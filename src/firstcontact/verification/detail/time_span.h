@@ -6,7 +6,7 @@
 namespace firstcontact::detail {
 
 struct TimeSpan {
-  double from = 0.0;  ///< [-]  Of the duration.
+  double from = 0.0;  ///< [-]  Normalised to the duration.
   double to = 1.0;
 };
 

@@ -5,7 +5,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// 1 or -1 where the sign is certain, else 0.
+/// The sign: 1 or -1 where it is certain, else 0.
 int certain_sign(const Interval& x) { return x.lower() > 0.0 ? 1 : (x.upper() < 0.0 ? -1 : 0); }
 
 /// The side of the plane through a, b and c on which p lies.
@@ -14,7 +14,9 @@ int side(const IntervalVector3& a, const IntervalVector3& b, const IntervalVecto
   return certain_sign(dot(cross(b - a, c - a), p - a));
 }
 
-/// The ends lie on both sides of the plane, and the line passes all three edges on one side.
+/// Whether the segment passes through the triangle.
+///
+/// Its ends lie on both sides of the plane, and the line passes all three edges on one side.
 bool passes_through(const IntervalVector3& from, const IntervalVector3& to,
                     const IntervalTriangle& t) {
   const int begins = side(t[0], t[1], t[2], from);

@@ -13,8 +13,8 @@ using IntervalTriangle = std::array<IntervalVector3, 3>;
 
 /// Whether an edge of one triangle surely passes through the inside of the other one.
 ///
-/// Proven for all members of the intervals where true. False says nothing: degenerate and coplanar
-/// triangles that meet are among it.
+/// True is proven for all members of the intervals. False proves nothing: degenerate and coplanar
+/// triangles that meet give false, too.
 [[nodiscard]] bool triangles_meet(const IntervalTriangle& A, const IntervalTriangle& B);
 
 }  // namespace firstcontact::detail

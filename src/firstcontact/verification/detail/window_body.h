@@ -13,12 +13,12 @@
 
 namespace firstcontact::detail {
 
-/// Covers the roundings of a velocity.
+/// [-]  Covers the roundings of a velocity.
 inline constexpr double kVelocityError = 0x1p-44;
-/// Covers the roundings of a position, and of a product with a direction: sums of a few terms.
+/// [-]  Covers the roundings of a position, and of a product with a direction: sums of a few terms.
 inline constexpr double kPositionRounding = 64.0 * 0x1p-53;
 
-/// A unit vector but for rounding, or zero, along which no gap is wide enough.
+/// The unit vector up to rounding; or zero, along which no gap is wide enough.
 inline Eigen::Vector3d unit_or_zero(const Eigen::Vector3d& v) {
   const Eigen::Vector3d n = v.stableNormalized();
   return std::abs(n.squaredNorm() - 1.0) <= kPositionRounding
@@ -26,7 +26,7 @@ inline Eigen::Vector3d unit_or_zero(const Eigen::Vector3d& v) {
              : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-/// How far a bound falls within a window, and what it is in its middle. [m]
+/// A bound of a gap in the middle of a window, and its fall within the window [m].
 struct GapBound {
   double middle = -std::numeric_limits<double>::infinity();
   double loss = 0.0;
@@ -37,8 +37,8 @@ struct GapBound {
 /// One body in the middle of a window.
 struct WindowBody {
   BodyInstant now;
-  double reach = 0.0;  // [m]  Of the whole body from its pivot.
-  double speed = 0.0;  // [m/s]  No point is faster.
+  double reach = 0.0;  // [m]  Reach of the whole body from its pivot.
+  double speed = 0.0;  // [m/s]  Bound of the speed of any point.
 
   WindowBody(const BodyInstant& instant, double whole_reach)
       : now(instant),
@@ -52,35 +52,36 @@ struct WindowBody {
   [[nodiscard]] Eigen::Vector3d velocity(const Eigen::Vector3d& Y) const {
     return now.velocity + now.spin.cross(Y);
   }
-  /// [m]  Of a stored point, and of the sums that place it.
+  /// [m]  Error of a stored point, and of the sums that place it.
   [[nodiscard]] double error() const {
     return now.pivot_error + now.turn_error * reach +
            kPositionRounding * (now.pivot.norm() + reach);
   }
-  /// [m/s^2]  No point within `from_pivot` accelerates along n faster. Derivation, with constant
-  /// rates: the acceleration is -w^2 y', y' from the axis and across it, and
-  /// |n . y'| <= |n x w| / w |y'|.
+  /// [m/s^2]  Bound of the acceleration along n of a point within `from_pivot`.
+  ///
+  /// Derivation, with constant rates: the acceleration is -w^2 y', with y' from the axis and across
+  /// it. |n . y'| <= |n x w| / w |y'|.
   [[nodiscard]] double bend(const Eigen::Vector3d& n, double from_pivot) const {
     return now.constant_rates
                ? now.spin.norm() * now.spin.cross(n).norm() * (from_pivot + now.lever)
                : now.acceleration + now.turn_acceleration * from_pivot;
   }
-  /// [m]  What unknown errors of the velocities of points add up to.
+  /// [m]  The sum of unknown errors of the velocities of points.
   [[nodiscard]] double drift(double half) const {
     return half * (speed * (kVelocityError + now.turn_error) + now.velocity_error +
                    now.spin_error * reach);
   }
-  /// [m]  Any point may be so far off its nominal place.
+  /// [m]  Bound of the distance of any point from its nominal place.
   [[nodiscard]] double tracking() const { return now.tracking + now.turn_tracking * reach; }
 };
 
-/// A box in the middle of a window, as the world sees it.
+/// A box in the middle of a window, in world axes.
 struct WindowBox {
   const WindowBody& body;
   const BoxNode& node;
   Eigen::Vector3d lever;     // R centre
   Eigen::Vector3d centre;    // From the origin.
-  Eigen::Vector3d velocity;  // Of the centre.
+  Eigen::Vector3d velocity;  // Velocity of the centre.
 
   WindowBox(const WindowBody& moving, const BoxNode& box)
       : body(moving),
@@ -89,11 +90,11 @@ struct WindowBox {
         centre(moving.now.pivot + lever),
         velocity(moving.velocity(lever)) {}
 
-  /// [m]  No point is farther from the centre along n.
+  /// [m]  Bound of the distance of points from the centre along n.
   [[nodiscard]] double support(const Eigen::Vector3d& n) const {
     return node.extent.dot((body.now.R.transpose() * n).cwiseAbs());
   }
-  /// [m/s]  No point moves along n faster than the centre by more: n . (w x y) = (n x w) . y.
+  /// [m/s]  Bound of the excess speed of points along n over the centre: n . (w x y) = (n x w) . y.
   [[nodiscard]] double spread(const Eigen::Vector3d& n) const {
     return support(n.cross(body.now.spin));
   }
