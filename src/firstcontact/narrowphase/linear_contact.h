@@ -53,11 +53,11 @@ struct LinearContact {
 /// sliding does not stall.
 ///
 /// Steps of that kind never pass a contact, whatever the configuration. Nothing is divided by a
-/// determinant, and no root of the coplanarity cubic is sought. The cubic's degenerate cases are
-/// those of B. Wang, Z. Ferguson, T. Schneider, X. Jiang, M. Attene, D. Panozzo, "A large-scale
-/// benchmark and an inclusion-based algorithm for continuous collision detection", ACM Trans.
-/// Graph. 40, 2021. Derivation: ours. The steps are those of conservative advancement (B. Mirtich,
-/// 1996) with the exact bound that linear motion allows.
+/// determinant, and no root of the coplanarity cubic is sought. Its degenerate cases: B. Wang, Z.
+/// Ferguson, T. Schneider, X. Jiang, M. Attene, D. Panozzo, "A large-scale benchmark and an
+/// inclusion-based algorithm for continuous collision detection", ACM Trans. Graph. 40, 2021.
+/// Derivation: ours. The steps are those of conservative advancement (B. Mirtich, 1996) with the
+/// exact bound that linear motion allows.
 ///
 /// The claims hold in the arithmetic as executed, also far from the origin: only differences of
 /// coordinates are rounded. Where doubles cannot decide, the test is repeated in double-double

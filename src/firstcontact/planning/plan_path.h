@@ -60,8 +60,7 @@ struct ContactStatistics {
   std::size_t slides = 0;      ///< Ways along contacts towards a target.
   std::size_t pushes = 0;      ///< Ways along contacts in a direction.
   std::size_t nodes = 0;       ///< Places of trees at which these ways ended.
-  std::size_t in_contact = 0;  ///< Of these places: no farther from contact than the gap that is
-                               ///< kept.
+  std::size_t in_contact = 0;  ///< Number of these no farther from contact than the kept gap.
   std::size_t active = 0;  ///< Contacts that held the last steps back, summed up over all of these
                            ///< places.
   std::size_t most_active = 0;

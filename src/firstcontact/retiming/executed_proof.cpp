@@ -124,9 +124,9 @@ std::vector<LimitViolation> violations_of(const TimedMotion& motion, const Robot
 /// Derivation: u = 2^-53, and D is the duration. A quotient t / D is off by u at most. That moves
 /// the time by u D and changes the length of a segment by 2 u D. A velocity or acceleration per
 /// step is off by one or two units. V is the greatest velocity, A the greatest acceleration of a
-/// point, and h the longest segment, h <= D. The position is off by u D (V + A h) for the times, u
-/// V h for the velocity and u A h^2 for the acceleration, a few times each. The sum is less than 16
-/// u D (V + 2 A h).
+/// point, and h the longest segment, h <= D. The position is off by u D (V + A h) for the times. It
+/// is off by u V h for the velocity and by u A h^2 for the acceleration. Each counts a few times.
+/// The sum is less than 16 u D (V + 2 A h).
 double rounding_of(const TimedMotion& motion, const std::vector<RateUse>& rates) {
   double velocity = 0.0;
   for (const RateUse& use : rates) {

@@ -80,9 +80,9 @@ class FIRSTCONTACT_API LinkWindow {
 
   /// The displacement along n, from t to t_to().
   ///
-  /// Derivation: a point P at offset e from the link's origin has the velocity v + w x e and the
-  /// acceleration a + al x e + w x (w x e). Both are linear in e, so their greatest values over a
-  /// box are in closed form. Taylor's theorem with |jerk| <= J gives
+  /// Derivation: a point P at offset e from the link's origin has the velocity v + w x e. It has
+  /// the acceleration a + al x e + w x (w x e). Both are linear in e, so their greatest values over
+  /// a box are in closed form. Taylor's theorem with |jerk| <= J gives
   ///   n . (p(t + tau) - p(t)) <= n . v_P tau + (n . a_P + J T / 3) tau^2 / 2 for tau <= T.
   /// Where the bounds of size over the window are less, they are taken.
   ///

@@ -31,7 +31,7 @@ struct LinkBall {
 /// q + al x d + w x (w x d), with q that of the link's point at Q. Its model has w x (w x d). They
 /// differ by q + al x d at t, and after tau by at most (J + w^3 |d|) tau more, with J a bound of
 /// the point's jerk. J_P is such a bound for the link's point P, and j its growth for each metre
-/// from P. Integrated twice, the difference is for tau <= T at most
+/// from P. So for tau <= T the difference, integrated twice, is at most
 ///   (|q| + (J_P + j |Q - P|) T / 3  +  (|al| + (j + w^3) T / 3) |d|) tau^2 / 2.
 /// P is the pole at the start of the piece. A pole outside of the ball gives no tight bound; P is
 /// then C, |q| + |al| |d| is |c - a| + |al| r, and J is J_P + j r.

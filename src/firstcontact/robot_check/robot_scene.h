@@ -75,8 +75,8 @@ struct BodyStretch {
 /// Bodies and robots with their motions over the step, t in [0, 1].
 ///
 /// Anything that can touch is a *member*, numbered from 0 in the order of adding. A body is one
-/// member, a robot as many as it has links. Three things determine which pairs of members are
-/// tested, and how far apart they have to stay:
+/// member, a robot as many as it has links. These rules determine the tested pairs of members and
+/// their margins:
 /// - Links of one robot are never tested if they are adjacent, or only fixed joints connect them.
 ///   Two bodies that both rest over the whole step are not tested either.
 /// - rules() ignores pairs and gives margins.

@@ -21,7 +21,7 @@ struct LoadedScene;
 /// Collects a run, step after step, for a .glb file.
 ///
 /// Each body is a node at its centre of mass, with its mesh below it. Between two keys a player
-/// moves the node on a line and turns it at a constant rate, which is the in-between motion of the
+/// moves the node on a line and turns it at a constant rate. That is the in-between motion of the
 /// run. A player turns the short way, so pieces that turn by more than a quarter have keys in
 /// between. Numbers are in single precision, as glTF has them: the file shows a run and proves
 /// nothing. The root turns the scene so that gravity pulls along -y. Without gravity z becomes y.

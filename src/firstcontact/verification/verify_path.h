@@ -33,7 +33,7 @@ struct PathVerification {
 /// Proves a path again, edge by edge, with other code than that which plans.
 ///
 /// The proof is about the exact motion between the two waypoints of each edge. It covers every
-/// tested pair with a member that moves along edges, at all times of the edge, both ends included:
+/// tested pair with a member that moves along edges, at all times of the edge, the ends included.
 /// - The pair is farther apart than its margin and the extra clearance, strictly.
 /// - The pair comes no closer than the `clearance` of the edge, except for 2^-20 of it and
 ///   rounding.

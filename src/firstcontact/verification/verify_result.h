@@ -78,9 +78,9 @@ struct ResultVerification {
 /// perhaps is not. Then the claim is not proven. They alone never refute a claim, and never prove a
 /// contact.
 ///
-/// These are not proven again: the bodies, features, points, normals and count of contacts,
-/// intervals of contact, closest approaches, `t_upper` of undecided pairs, counts of untested
-/// pairs, and sampling.
+/// Some claims are not proven again. They are the bodies, features, points, normals and count of
+/// contacts, intervals of contact and closest approaches. So are `t_upper` of undecided pairs,
+/// counts of untested pairs, and sampling.
 ///
 /// Method: as in verify_run(); the courses of joints and links have arithmetic of their own.
 ///

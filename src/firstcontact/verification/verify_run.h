@@ -73,10 +73,10 @@ struct RunVerification {
 ///
 /// The proof is about the exact motions that the recorded doubles define, with all of its own
 /// roundings included. It covers all of each step, for each two bodies that may touch if one of
-/// them is free and one moves. A promise counts as kept when the distance is proven to be above 0,
-/// and above the promise less 2^-20 of it and less twice the rounding. From the end of a piece to
-/// the begin of the next a pose may differ by 2^-44 of its numbers. The proof covers this
-/// difference. The start is tested for bodies that begin inside a solid.
+/// them is free and one moves. A promise counts as kept when the distance is proven to be above 0.
+/// It also has to be above the promise less 2^-20 of it and less twice the rounding. From the end
+/// of a piece to the begin of the next a pose may differ by 2^-44 of its numbers. The proof covers
+/// this difference. The start is tested for bodies that begin inside a solid.
 ///
 /// Method: windows of time cover the step. In each of them every two triangles are shown to be
 /// apart along some direction; windows are halved until they are.

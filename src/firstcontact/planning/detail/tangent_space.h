@@ -67,8 +67,8 @@ class TangentSpace {
   /// Both are in axes that go with the body.
   [[nodiscard]] std::optional<Eigen::VectorXd> about_an_axis(const Eigen::VectorXd& in_body) const;
 
-  /// The place to which the screw near a motion leads, about or along an axis of the body's frame;
-  /// none where there is none, or for a robot.
+  /// The place to which the screw near a motion leads; none where there is no such screw, or for a
+  /// robot. The screw is about or along an axis of the body's frame.
   ///
   /// An edge turns a body about its origin, so only such screws are edges. They are proven in few
   /// steps where surfaces slide on them.

@@ -37,8 +37,8 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
          apart_along(between, pair, kClearly * reach);
 }
 
-/// Number of opened pairs of boxes, or of tested triangles, before the search asks for screw
-/// sliding; and the most pairs of triangles that this may leave.
+/// Number of opened pairs of boxes, or of tested triangles, before the search tries screw sliding.
+/// And the most pairs of triangles that screw sliding may leave.
 constexpr std::size_t kManyOpened = 1000;
 constexpr std::size_t kMostClose = 100'000;
 

@@ -23,8 +23,8 @@ namespace firstcontact::detail {
 
 /// Lists the pairs of features within `band` [m] (radii included) in workspace.close_pairs.
 ///
-/// Some of them are listed more than once. Of very many, only those that ContactSelection chooses
-/// are listed. Then the function returns how many there are.
+/// Some of them are listed more than once. If there are very many, only those that ContactSelection
+/// chooses are listed. Then the function returns how many there are.
 ///
 /// @param state  at the instant
 /// @param most   >= 1, the number that is asked for

@@ -19,7 +19,7 @@ namespace {
 /// Most opened pairs of triangles that are remembered; a dozen times what most queries open.
 constexpr std::size_t kMostRemembered = 256;
 
-/// Work after which the search asks for screw sliding; more than most searches take.
+/// Work after which the search tries screw sliding; more than most searches take.
 constexpr std::uint64_t kLongSearch = 1000;
 
 /// Displacement of the bodies in the first window that begins at a front, in thresholds; and the

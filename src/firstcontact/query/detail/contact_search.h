@@ -55,11 +55,11 @@ struct SearchLimits {
 
 /// Searches [t_begin, t_end] of a piece for the first contact.
 ///
-/// At all times exactly one entry of the queue stands for each pair of triangles, unless the pair
-/// is proven free for as long as the search looks ahead. The entry is the pair itself or a pair of
-/// boxes around it. Its key is proven to be no later than the pair's first contact. So the least
-/// key is never later than the first contact of the shapes. Keys of nearly tied pairs are lowered a
-/// little with each level of the hierarchies, so that ties are searched depth-first.
+/// At all times exactly one entry of the queue stands for each pair of triangles. A pair that is
+/// proven free for as long as the search looks ahead needs none. The entry is the pair itself or a
+/// pair of boxes around it. Its key is proven to be no later than the pair's first contact. So the
+/// least key is never later than the first contact of the shapes. Keys of nearly tied pairs are
+/// lowered a little with each level of the hierarchies, so that ties are searched depth-first.
 ///
 /// Where surfaces slide on a screw, very many pairs are near each other. The screw sliding proves
 /// most of them apart (screw_sliding_cover.h), window by window.

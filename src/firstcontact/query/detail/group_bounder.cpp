@@ -14,8 +14,8 @@ namespace {
 /// next ones are expected to be so, too.
 constexpr std::uint64_t kManyFreed = 256;
 
-/// Number of pairs of boxes that are bounded again in double precision before the gain is known;
-/// and the most such bounds for one pair that they free.
+/// Number of pairs of boxes that are bounded again in double precision before the gain is known.
+/// And the most such bounds for one pair that they free.
 constexpr std::uint64_t kFewRepeated = 64;
 constexpr std::uint64_t kRepeatedForOne = 4;
 

@@ -11,9 +11,10 @@ namespace firstcontact::detail {
 
 /// Reads one of the shapes that a body can have.
 ///
-/// They are `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
-/// `capsule`, `box`, `cylinder`, `cone`, `convex_hull` (of a mesh or vertices), `points` (a file or
-/// inline) with `scale`, `heightmap`; with `radius` and `solid` where they may stand.
+/// They are `mesh` (a file, which must exist) with `scale`, and `vertices` with `triangles`. There
+/// are `sphere`, `capsule`, `box`, `cylinder`, `cone` and `convex_hull` (of a mesh or vertices).
+/// There are `points` (a file or inline) with `scale`, and `heightmap`. `radius` and `solid` are
+/// read where they may stand.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyShape read_shape(const JsonValue& value, const SceneFolders& folders,

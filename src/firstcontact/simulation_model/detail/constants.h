@@ -101,8 +101,8 @@ inline constexpr double kStepsWithoutBounce = 2.0;
 inline constexpr std::size_t kAnswersOfPair = 100;
 /// [-]  The sequence ends where all pairs close more slowly than this part of the fastest impact.
 inline constexpr double kSlowOfFirst = 1e-6;
-/// [-]  A predicted contact is slight if the bodies approach by less than this over the plan, by
-/// the radius of the smaller one, and would not bounce. It becomes a constraint. Larger: fewer
+/// [-]  A predicted contact is slight if the bodies approach by less than this over the plan and
+/// would not bounce; by the radius of the smaller body. It becomes a constraint. Larger: fewer
 /// impacts, and more motion that is not straight.
 inline constexpr double kSlightApproach = 0.4;
 /// [impacts]  After this many in a row with no more time between them than a stall, an island is
@@ -160,8 +160,8 @@ inline constexpr double kRoomOfWay = 0.1;
 /// Planes for parts of it often do. A first contact takes as long as thirty planes.
 inline constexpr int kSplitsOfPlan = 3;
 
-/// [-]  Most by which pairs may come nearer than their constraints in a plan that follows the mean
-/// of velocities, by the contact distance. Smaller: more plans follow the velocities at the end,
+/// [-]  Most by which pairs may come nearer than their constraints, by the contact distance, in a
+/// plan that follows the mean of velocities. Smaller: more plans follow the velocities at the end,
 /// which are of first order.
 inline constexpr double kSlackOfMean = 0.02;
 
@@ -170,9 +170,9 @@ inline constexpr double kSlackOfMean = 0.02;
 /// pairs that are too near.
 inline constexpr double kToleranceOfWay = 2e-3;
 inline constexpr int kSweepsOfWay = 50;
-/// [-]  A contact that rolls slips by less, by the change of its velocity that its curve makes in
-/// half of a plan: the plan before led it nearly to that. Smaller: a rolling body seems to slide
-/// and to stop.
+/// [-]  A contact that rolls slips by less than this, by the change of its velocity that its curve
+/// makes in half of a plan. The plan before led it nearly to that. Smaller: a rolling body seems to
+/// slide and to stop.
 inline constexpr double kSlipOfChange = 0.05;
 /// [-]  Part of the way back in a plan for a contact that presses and has drifted beyond the
 /// distance of rest. Larger: the mean of the velocities leads too far in the next plan.
@@ -327,9 +327,9 @@ inline constexpr double kYield = 1e-3;
 
 // Sleep.
 
-/// [-]  The points of bodies at rest are no faster than the lesser of two: this factor of the exact
-/// tolerance, or this part of the velocity that gravity adds in a step. A body that gains speed
-/// more slowly sleeps, too.
+/// [-]  The points of bodies at rest are no faster than both of two limits. One is this factor of
+/// the exact tolerance, the other this part of the velocity that gravity adds in a step. A body
+/// that gains speed more slowly sleeps, too.
 inline constexpr double kRestOfExactTolerance = 100.0;
 inline constexpr double kRestOfGravity = 3e-5;
 

@@ -45,9 +45,9 @@ struct ManifoldPoint {
 
 /// Makes manifold points of the contacts of a list at which both surfaces bulge towards each other.
 ///
-/// Each place is taken once; where no surface bulges, all contacts are taken. Of very many, the
-/// nearest ones of each neighbourhood are taken. Contacts without normal, of surfaces that meet,
-/// are left out.
+/// Each place is taken once; where no surface bulges, all contacts are taken. If there are very
+/// many, the nearest ones of each neighbourhood are taken. Contacts without normal, of surfaces
+/// that meet, are left out.
 ///
 /// @param margin  [m]  of the pair
 [[nodiscard]] std::vector<ManifoldPoint> touches_among(const SimulationModel& model,

@@ -44,9 +44,9 @@ struct SweptHull {
 /// B stays farther from the plane than a distance [m] over the same part of their moves. Without a
 /// normal nothing is known of the pair.
 ///
-/// Derivation: x is the place of a point of B from C of A. Its velocity is at most V + w_B r_B, its
-/// acceleration w_B^2 r_B, its jerk w_B^3 r_B, with V the relative speed of the centres. As seen
-/// from A, which turns at the rate w, each derivative d/dt becomes d/dt - w x. So there
+/// Derivation: x is the place of a point of B from C of A. V is the relative speed of the centres.
+/// The point's velocity is at most V + w_B r_B, its acceleration w_B^2 r_B, its jerk w_B^3 r_B. As
+/// seen from A, which turns at the rate w, each derivative d/dt becomes d/dt - w x. So there
 ///   |jerk| <= w_B^3 r_B + 3 w w_B^2 r_B + 3 w^2 (V + w_B r_B) + w^3 |x|.
 /// The point is within |jerk| / 124 of the parabola through three places of its way, by
 /// interpolation: max |t (t - 1/2) (t - 1)| / 6 = 1 / 124.7. The parabola is in the hull of its

@@ -120,7 +120,7 @@ class ChainFrame {
   IntervalVector3 velocity_;
   IntervalVector3 spin_;
   double turn_rate_ = 0.0;          // Bounds in the window; so are the others.
-  double turn_acceleration_ = 0.0;  // Of the turn alone, without w^2.
+  double turn_acceleration_ = 0.0;  // Bound for the turn alone, without w^2.
   double acceleration_ = 0.0;
   std::vector<Passed> passed_;
 };
