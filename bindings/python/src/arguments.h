@@ -1,5 +1,5 @@
 /// @file
-/// Arguments of any type, taken as what they have to be, or refused by their name.
+/// Arguments of any type, converted to the expected type or refused by their name.
 
 #pragma once
 
@@ -19,11 +19,11 @@ namespace firstcontact::python {
   throw pybind11::type_error(name + ": expected " + what + ", got " + std::string(type));
 }
 
-/// The argument as a type of C++.
+/// Converts an argument to a type of C++.
 ///
-/// @param name  of the argument, for complaints
-/// @param what  it has to be, for complaints: "a path"
-/// @throws pybind11::type_error  where it is none
+/// @param name  name of the argument, for complaints
+/// @param what  the expected kind, for complaints: "a path"
+/// @throws pybind11::type_error  where it is another kind
 template <typename T>
 T argument(pybind11::handle value, const std::string& name, const std::string& what) {
   try {

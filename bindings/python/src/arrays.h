@@ -20,11 +20,11 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// Three numbers, as a tuple, a list or an array.
 ///
-/// @param name  of the argument, for complaints
+/// @param name  name of the argument, for complaints
 /// @throws pybind11::type_error, pybind11::value_error, as all functions here
 Eigen::Vector3d vector_from(pybind11::handle value, const char* name);
 
-/// As vector_from; the tuple (x, y).
+/// Two numbers, likewise; the tuple (x, y).
 Eigen::Vector2d vector2_from(pybind11::handle value, const char* name);
 
 /// n numbers.
@@ -47,7 +47,7 @@ pybind11::array view(const std::vector<Eigen::Vector3d>& points, pybind11::handl
 pybind11::array view(const Triangles& triangles, pybind11::handle owner);
 pybind11::array view(std::span<const double> numbers, pybind11::handle owner);
 
-/// Arrays that own what they are made of, without a copy.
+/// Arrays that own the data of their argument, without a copy.
 pybind11::array owning(std::vector<Eigen::Vector3d> points);
 pybind11::array owning(Triangles triangles);
 pybind11::array owning(std::vector<double> numbers);

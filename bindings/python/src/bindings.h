@@ -1,6 +1,7 @@
 /// @file
-/// The parts of the module, one for each module of the library; in an order in which each names
-/// only classes that are known.
+/// The parts of the module, one for each module of the library.
+///
+/// Their order is such that each names only known classes.
 
 #pragma once
 

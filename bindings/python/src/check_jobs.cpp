@@ -42,14 +42,14 @@ namespace {
 using SharedScene = std::shared_ptr<HeldScene>;
 using SharedCache = std::shared_ptr<ShapeCache>;
 
-/// What is asked of one scene in place of, or beyond, what it says.
+/// The options of one question, in place of the scene's or in addition to them.
 struct SceneQuestion {
   OtherOptions other = {};
   std::optional<double> sample_rate = {};  ///< [1/s]
   bool strict = false;                     ///< A robot beyond its joint limits is an error.
 };
 
-/// Checks one scene, whose other options are settled. Without the GIL.
+/// Checks one scene, whose other options are settled. Runs without the GIL.
 HeldResult answer_scene(SharedScene scene, ManyBodiesWorkspace& workspace,
                         const CheckOptions& options, const SceneQuestion& question) {
   HeldResult result{.scene = std::move(scene), .answer = {}, .all_pairs = options.all_pairs};
@@ -86,7 +86,7 @@ struct SceneSource {
   bool lenient = false;
 };
 
-/// Two shapes of Python, which somebody keeps.
+/// Two shapes of Python; the caller keeps them alive.
 struct TwoShapes {
   GivenShape A;
   GivenShape B;
@@ -95,7 +95,7 @@ struct TwoShapes {
 using Job = std::variant<SharedScene, SceneSource, TwoShapes>;
 using Answer = std::variant<std::exception_ptr, HeldResult, FirstContactResult>;
 
-/// What is asked of every job.
+/// The options of every job.
 struct JobOptions {
   CheckOptions check;
   SceneQuestion question;
@@ -105,11 +105,11 @@ struct JobOptions {
 /// Answers jobs of any kind with the scratch memory of one thread.
 class JobAnswerer {
  public:
-  /// @param memory  of all threads: held alone by who needs all of it
+  /// @param memory  of all threads: held alone by a job that needs all of it
   JobAnswerer(const JobOptions& options, std::shared_mutex& memory)
       : options_(options), memory_(memory) {}
 
-  /// A job that runs out of memory may do so because of what others need: it is tried once more,
+  /// Answers a job. It may run out of memory because of the needs of others: it is tried once more,
   /// alone.
   Answer operator()(const Job& job) {
     {
@@ -171,8 +171,8 @@ class JobAnswerer {
   Workspace two_bodies_;
 };
 
-/// @param abandoned  whether nobody waits for the answers any more: the rest has none
-/// @param progress   called by this thread, with the part that is done, up to 1; may be empty
+/// @param abandoned  whether no one waits for the answers any more: the rest has none
+/// @param progress   called by this thread, with the share that is done, up to 1; may be empty
 std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& options,
                                std::size_t threads, const std::function<bool()>& abandoned,
                                const std::function<void(double)>& progress) {
@@ -226,7 +226,7 @@ Job job_from(py::handle value) {
   return TwoShapes{given_shape_from(two[0], "A"), given_shape_from(two[1], "B")};
 }
 
-/// Turns an answer into an object of Python, and forgets it.
+/// Makes an object of Python of an answer, and drops the answer.
 struct ToPython {
   py::object operator()(const std::exception_ptr& error) const { return exception_from(error); }
   py::object operator()(HeldResult& result) const {
@@ -245,7 +245,7 @@ py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions 
   }
   std::vector<Answer> answers = run_query(stop, [&](QueryStop& query) {
     options.check.stop = query.token();
-    // What a user stops is answered as far as it goes; after Ctrl-C there is only an exception.
+    // A stopped question is answered as far as it got; after Ctrl-C there is only an exception.
     const auto abandoned = [&] {
       return query.token().stop_requested() && (stop == nullptr || !stop->stop_requested());
     };
@@ -259,8 +259,9 @@ py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions 
   return list;
 }
 
-/// Defines a question about the scene that `scene_of` makes of the first arguments, by which it is
-/// documented too.
+/// Defines a question about the scene that `scene_of` makes of the first arguments.
+///
+/// These arguments document the question, too.
 template <typename Define, typename... Given, typename... Extra>
 void def_check(const Define& define, SharedScene (*scene_of)(Given...), const Extra&... extra) {
   define(
@@ -294,7 +295,7 @@ SharedScene itself(const SharedScene& scene) { return scene; }
 
 void bind_check_jobs(py::module_& m) {
   def_check([&](const auto&... extra) { m.def("check", extra...); }, &itself,
-            "As firstcontact.check, of a Scene.", py::arg("scene"));
+            "Checks a Scene, as firstcontact.check does.", py::arg("scene"));
   py::class_<SceneSource>(m, "SceneSource", "A scene that is not read yet.")
       .def(
           py::init([](std::optional<std::string> text, std::filesystem::path source, bool lenient) {
@@ -329,15 +330,15 @@ void bind_check_jobs(py::module_& m) {
       py::arg("deadline") = py::none(), py::arg("contacts") = py::none(), py::arg("strict") = false,
       py::arg("shapes") = py::none(), py::arg("progress") = py::none(),
       py::arg("stop") = py::none(),
-      "Of each job its answer, or the exception that it raised, in order.");
+      "The answers of the jobs in order; for a job that failed the exception that it raised.");
 }
 
 void bind_check_along(RobotSceneClass& type) {
   def_check([&](const auto&... extra) { type.def("check", extra...); }, &scene_along,
             R"(Finds the first contact on a trajectory: when, where, or proven never.
 
-trajectory: a Trajectory, the path of one, or None where the robot rests. The rest as of
-firstcontact.check.)",
+trajectory: a Trajectory, the path of one, or None where the robot rests. The other arguments are
+those of firstcontact.check.)",
             py::arg("trajectory"));
 }
 

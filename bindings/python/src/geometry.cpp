@@ -39,7 +39,7 @@ using std::filesystem::path;
 
 namespace {
 
-/// Lets other threads run meanwhile.
+/// Runs a call while other threads of Python run.
 template <typename Work>
 auto without_gil(const Work& work) {
   const py::gil_scoped_release release;
@@ -73,7 +73,7 @@ HeightMap height_map_from(const py::object& value) {
           .heights = {heights.data(), heights.data() + heights.size()}};
 }
 
-/// Reads a file that is there.
+/// Reads a file, which has to exist.
 template <typename Read>
 auto read_file(const path& file, const Read& read) {
   require_file(file);
@@ -90,7 +90,8 @@ void bind_parser(py::module_& m, const char* name, ParseMesh parse) {
         return to_tuple(without_gil([&] { return parse(data, source); }));
       },
       py::arg("data"), py::arg("source"),
-      "Parses the content of a file, str or bytes, not welded. source: names it in a ParseError.");
+      "Parses the content of a file, str or bytes, without welding. source: names the file in a "
+      "ParseError.");
 }
 
 void bind_parser(py::module_& m, const char* name, ParsePoints parse) {
@@ -100,7 +101,8 @@ void bind_parser(py::module_& m, const char* name, ParsePoints parse) {
         return owning(without_gil([&] { return parse(data, source); }));
       },
       py::arg("data"), py::arg("source"),
-      "Parses the content of a file, str or bytes: [m] n×3. source: names it in a ParseError.");
+      "Parses the content of a file, str or bytes: [m] n×3. source: names the file in a "
+      "ParseError.");
 }
 
 py::object bounds_of(const MeshDefects& defects) {
@@ -112,29 +114,30 @@ py::object bounds_of(const MeshDefects& defects) {
 
 void bind_defects(py::module_& m) {
   py::class_<MeshDefects>(
-      m, "MeshDefects", R"(What is unusual about a mesh; none of it keeps a query from being right.
+      m, "MeshDefects",
+      R"(Counts of unusual triangles and vertices of a mesh; none of them makes a query wrong.
 
-Vertices count as they are numbered: weld first.)")
-      .def_readonly("edges", &MeshDefects::edges, "Unique ones.")
-      .def_readonly("open_edges", &MeshDefects::open_edges, "Of one triangle.")
+Vertices count by their numbers, so weld them first.)")
+      .def_readonly("edges", &MeshDefects::edges, "Number of unique edges.")
+      .def_readonly("open_edges", &MeshDefects::open_edges, "Number of edges of one triangle.")
       .def_readonly("nonmanifold_edges", &MeshDefects::nonmanifold_edges,
-                    "Of three triangles or more.")
+                    "Number of edges of three triangles or more.")
       .def_readonly("degenerate_triangles", &MeshDefects::degenerate_triangles,
-                    "Equal corners, or area <= 1e-12 (longest edge)^2.")
+                    "Number of triangles with equal corners, or area <= 1e-12 (longest edge)^2.")
       .def_readonly("doubled_triangles", &MeshDefects::doubled_triangles,
-                    "With the corners of an earlier one, in any order.")
+                    "Number of triangles with the corners of an earlier one, in any order.")
       .def_readonly("nonfinite_vertices", &MeshDefects::nonfinite_vertices)
       .def_readonly("unused_vertices", &MeshDefects::unused_vertices)
       .def_readonly("components", &MeshDefects::components,
-                    "Sets of triangles joined by shared vertices.")
-      .def_readonly("closed", &MeshDefects::closed, "Every edge has exactly two triangles.")
+                    "Number of sets of triangles joined by shared vertices.")
+      .def_readonly("closed", &MeshDefects::closed, "Whether every edge has exactly two triangles.")
       .def_readonly("consistently_oriented", &MeshDefects::consistently_oriented,
-                    "Two triangles run their edge in opposite directions.")
+                    "Whether two triangles run each of their edges in opposite directions.")
       .def_property_readonly("bounds", &bounds_of,
                              "[m] Least and greatest corner, each (3,), of the vertices that "
                              "triangles use; None where there are none.")
       .def_readonly("signed_volume", &MeshDefects::signed_volume,
-                    "[m^3] Of a closed, consistently oriented mesh, else None.");
+                    "[m^3] Volume of a closed, consistently oriented mesh, else None.");
 }
 
 /// The convex set of a shape: its kind and its numbers; None where it has none.
@@ -182,7 +185,7 @@ Shape shape_from(const py::tuple& state) {
   return without_gil([&] { return Shape(std::move(mesh), filling, enclosure_error, set); });
 }
 
-/// What a pickled shape is made of again.
+/// The data of which a pickled shape is made again.
 py::tuple shape_state(const py::object& self) {
   const Shape& shape = self.cast<const Shape&>();
   if (shape.hierarchy().deforms()) {
@@ -199,14 +202,14 @@ void bind_shape(py::module_& m) {
   py::class_<Shape>(
       m, "Shape", R"(A union of simplices thickened by a radius, with its bounding-volume hierarchy.
 
-Never changes, and is shared: build it once, ask many times, also from many threads.)")
+A shape never changes. Build it once and use it in many queries, also from many threads.)")
       .def(py::init(&make_shape), py::arg("mesh"), py::arg("radius") = 0.0,
            py::arg("filling") = Filling::surface, py::arg("enclosure_error") = 0.0,
            R"(Copies the mesh once and builds the hierarchy.
 
 mesh: a Mesh, or any pair (vertices, triangles): n×3 numbers [m], at least one triangle m×3.
 radius: [m] thickens every simplex; >= 0. filling: "solid" needs a closed mesh whose triangles agree
-on their inner side. enclosure_error: [m] where the triangles enclose a curved body from outside.
+on their inner side. enclosure_error: [m] distance by which triangles may enclose a curved body.
 ValueError on an empty mesh, a vertex that is not finite, an index out of range.)")
       .def_property_readonly(
           "vertices",
@@ -219,7 +222,8 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
           [](const py::object& self) {
             return view(self.cast<const Shape&>().mesh().triangles, self);
           },
-          "m×3 of uint32, rows of `vertices`. A read-only view of the shape's own memory.")
+          "Vertex numbers m×3 of uint32, rows of `vertices`. A read-only view of the shape's own "
+          "memory.")
       .def_property_readonly(
           "mesh",
           [](const py::object& self) {
@@ -230,11 +234,11 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
       .def_property_readonly("radius", &Shape::radius, "[m]")
       .def_property_readonly("is_solid", &Shape::is_solid)
       .def_property_readonly("enclosure_error", &Shape::enclosure_error,
-                             "[m] No point of the triangles is farther from the body that they "
-                             "enclose; 0 where they are exact.")
+                             "[m] Bound of the distance of the triangles from the enclosed body; 0 "
+                             "where they are exact.")
       .def_property_readonly("is_curved", &Shape::is_curved,
                              "Whether the triangles only enclose the shape. Queries of rigid "
-                             "bodies take the shape itself: a cylinder, a cone, an ellipsoid.")
+                             "bodies use the exact cylinder, cone or ellipsoid.")
       .def_property_readonly("edge_count", &Shape::edge_count)
       .def(
           "edge",
@@ -245,7 +249,7 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
             }
             return py::make_tuple(shape.edge(index)[0], shape.edge(index)[1]);
           },
-          py::arg("index"), "The two vertices of an edge, smaller first.")
+          py::arg("index"), "The two vertices of an edge, the smaller number first.")
       .def("__eq__",
            [](const Shape& a, const py::object& b) {
              return py::isinstance<Shape>(b) && a.compare(b.cast<const Shape&>()) == 0;
@@ -269,23 +273,24 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
 
 void bind_makers(py::module_& m) {
   m.def("make_sphere", &make_sphere, py::arg("radius"),
-        "A ball about the origin. radius: [m] > 0.");
-  m.def("make_capsule", &make_capsule, py::arg("radius"), py::arg("length"),
-        R"(All points within the radius of a segment along z, centred at the origin.
+        "Makes a ball about the origin. radius: [m] > 0.");
+  m.def(
+      "make_capsule", &make_capsule, py::arg("radius"), py::arg("length"),
+      R"(Makes a capsule: all points within the radius of a segment along z, centred at the origin.
 
 radius: [m] > 0. length: [m] of the segment, without the caps; >= 0.)");
   m.def(
       "make_box", [](const py::object& size) { return make_box(vector_from(size, "size")); },
-      py::arg("size"), "A box along the axes, centred at the origin. size: [m] (3,), > 0.");
+      py::arg("size"), "Makes a box along the axes, centred at the origin. size: [m] (3,), > 0.");
   m.def("make_cylinder", &make_cylinder, py::arg("radius"), py::arg("length"),
         py::arg("enclosure_error") = py::none(),
-        R"(A cylinder about z, centred at the origin. Queries take it exactly.
+        R"(Makes a cylinder about z, centred at the origin. Queries use it exactly.
 
-radius: [m] > 0. length: [m] along z; > 0. enclosure_error: [m] the corners of the triangles around
-it stand out by at most this; 1e-4 of the radius where it is None.)");
+radius: [m] > 0. length: [m] along z; > 0. enclosure_error: [m] the most by which the triangles
+around it stand out; 1e-4 of the radius where it is None.)");
   m.def("make_cone", &make_cone, py::arg("radius"), py::arg("length"),
         py::arg("enclosure_error") = py::none(),
-        R"(A cone about z, its base at -length / 2, its tip at length / 2. Queries take it exactly.
+        R"(Makes a cone about z: base at -length / 2, tip at length / 2. Queries use it exactly.
 
 radius: [m] of the base; > 0. length: [m] > 0. enclosure_error: as of make_cylinder.)");
   m.def(
@@ -295,7 +300,7 @@ radius: [m] of the base; > 0. length: [m] > 0. enclosure_error: as of make_cylin
         return without_gil([&] { return make_ellipsoid(owned, enclosure_error); });
       },
       py::arg("radii"), py::arg("enclosure_error") = py::none(),
-      R"(An ellipsoid along the axes, centred at the origin. Queries take it exactly.
+      R"(Makes an ellipsoid along the axes, centred at the origin. Queries use it exactly.
 
 radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] as of make_cylinder;
 5e-3 of the greatest radius where it is None.)");
@@ -306,7 +311,8 @@ radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] a
         return without_gil([&] { return make_convex_hull(owned, radius); });
       },
       py::arg("points"), py::arg("radius") = 0.0,
-      "The convex hull as a shape; solid where it encloses space. points: [m] n×3. radius: [m].");
+      "Makes the convex hull of points a shape; solid where it encloses space. points: [m] n×3. "
+      "radius: [m].");
   m.def(
       "convex_hull",
       [](const py::object& points) {
@@ -314,7 +320,7 @@ radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] a
         return to_tuple(without_gil([&] { return convex_hull(owned); }));
       },
       py::arg("points"),
-      "The convex hull as a closed Mesh over some of the points in their order; exact. "
+      "Makes the convex hull of points a closed Mesh over some of them in their order; exact. "
       "points: [m] n×3, at least one.");
   m.def(
       "make_point_cloud",
@@ -323,7 +329,7 @@ radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] a
         return without_gil([&] { return make_point_cloud(std::move(owned), radius); });
       },
       py::arg("points"), py::arg("radius") = 0.0,
-      "A union of balls. points: [m] n×3, at least one. radius: [m] >= 0.");
+      "Makes a union of balls. points: [m] n×3, at least one. radius: [m] >= 0.");
   m.def(
       "make_height_map",
       [](const py::object& map, double radius) {
@@ -331,7 +337,7 @@ radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] a
         return without_gil([&] { return make_height_map(owned, radius); });
       },
       py::arg("map"), py::arg("radius") = 0.0,
-      R"(The surface through the samples of a height map, two triangles a cell.
+      R"(Makes the surface through the samples of a height map, with two triangles a cell.
 
 map: a HeightMap, or any pair (cell, heights): [m] (2,) and [m] rows×columns. radius: [m] >= 0.)");
 }
@@ -386,9 +392,9 @@ void bind_readers(py::module_& m) {
       py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
       R"(Reads OBJ, STL, PLY, OFF (in double precision), DAE, GLB or glTF; welds equal vertices.
 
-scale: [-] of coordinates; 0.001 reads millimetres where the format has no unit. lenient: names that
-the reader does not know are warnings of read_mesh_file, not errors. FileNotFoundError where there
-is no such file, ParseError where it cannot be used.)");
+scale: [-] of coordinates; 0.001 reads millimetres where the format has no unit. lenient: unknown
+names are warnings of read_mesh_file, not errors. FileNotFoundError where there is no such file,
+ParseError where it cannot be used.)");
   m.def(
       "read_mesh_file",
       [](const path& file, double scale, bool lenient) {
@@ -397,7 +403,8 @@ is no such file, ParseError where it cannot be used.)");
         return report_function("mesh_reading")(to_tuple(std::move(reading.mesh)), report);
       },
       py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
-      "A MeshReading: the mesh, and what became of its file. As read_mesh.");
+      "Reads a MeshReading: the mesh, and the report on its file. Options and errors as "
+      "read_mesh.");
   m.def(
       "read_points",
       [](const path& file, double scale, bool lenient) {
@@ -413,7 +420,8 @@ is no such file, ParseError where it cannot be used.)");
         return report_function("point_reading")(owning(std::move(reading.points)), report);
       },
       py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
-      "A PointReading: the points, and what became of their file. As read_points.");
+      "Reads a PointReading: the points, and the report on their file. Options and errors as "
+      "read_points.");
   m.def(
       "read_heights",
       [](const path& file, const py::object& cell) {
@@ -441,22 +449,22 @@ void bind_inspection(py::module_& m) {
         return to_tuple(std::move(welded));
       },
       py::arg("mesh"),
-      "The mesh with vertices of equal coordinates merged into the first of them; unused ones "
-      "stay.");
+      "Merges vertices of equal coordinates into the first of them; unused ones stay.");
   m.def(
       "inspect",
       [](const py::object& mesh) {
         const Mesh inspected = mesh_from(mesh);
         return without_gil([&] { return inspect(inspected); });
       },
-      py::arg("mesh"), "Counts what is unusual about a mesh.");
+      py::arg("mesh"), "Counts unusual triangles and vertices of a mesh.");
   m.def(
       "why_not_solid",
       [](const py::object& mesh) {
         const Mesh inspected = mesh_from(mesh);
         return without_gil([&] { return why_not_solid(inspected); });
       },
-      py::arg("mesh"), "Why a mesh encloses no space, as \"12 open edges\"; empty if it does.");
+      py::arg("mesh"),
+      "The reason why a mesh encloses no space, as \"12 open edges\"; empty if it does.");
 }
 
 }  // namespace
@@ -464,7 +472,7 @@ void bind_inspection(py::module_& m) {
 void bind_geometry(py::module_& m) {
   bind_shape(m);
   m.def("move_vertices", &move, py::arg("shape"), py::arg("to"),
-        R"(A MovingShape whose vertices each move on a line: from those of the shape to `to`.
+        R"(Makes a MovingShape whose vertices each move on a line: from those of the shape to `to`.
 
 to: [m] n×3, world frame, one for each vertex of the shape.)");
   bind_makers(m);

@@ -29,7 +29,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// A tick as Python sees it: what was true then.
+/// A tick with the state at its time.
 struct FeltTick {
   ForceTick tick;
   std::size_t tools = 0;
@@ -51,7 +51,7 @@ struct FeltTick {
     return owning(std::move(found));
   }
 
-  /// Of the device's grips, for each tool as many as it has.
+  /// Number of grips of the device, for each tool.
   [[nodiscard]] std::vector<std::vector<double>> grip_efforts() const {
     std::vector<std::vector<double>> found;
     for (std::size_t k = 0; k < tools; ++k) {
@@ -173,7 +173,7 @@ class FeltSession {
     return tool < setup_.options.mappings.size() ? setup_.options.mappings[tool].grips.size() : 0;
   }
 
-  /// A tool's grips follow values of the device, or buttons: then theirs are not read.
+  /// Takes the values of a tool's grips. Grips that buttons move have none that are read.
   void take_grips(const std::vector<double>& values, std::size_t tool, DeviceState& state) const {
     if (!values.empty() && values.size() != grips_of(tool)) {
       throw std::invalid_argument("step: tool " + std::to_string(tool) + " has " +
@@ -212,35 +212,39 @@ std::unique_ptr<FeltSession> make_felt_session(const py::object& scene, double d
 }
 
 void bind_tick(py::module_& m) {
-  py::class_<FeltTick>(m, "HapticTick", "A tick of a HapticSession: what the devices feel.")
+  py::class_<FeltTick>(
+      m, "HapticTick",
+      "A tick of a HapticSession: the forces that the devices give to the user's hand.")
       .def_property_readonly(
           "time", [](const FeltTick& t) { return 1e-9 * static_cast<double>(t.tick.time_ns); },
           "[s]")
       .def_property_readonly(
           "forces", [](const FeltTick& t) { return t.command(&ForceCommand::force_D); },
-          "[N] n×3, on each device, its own axes.")
+          "[N] n×3, force on each device, in its own axes.")
       .def_property_readonly(
           "torques", [](const FeltTick& t) { return t.command(&ForceCommand::torque_D); },
-          "[N m] n×3, about each handle, its own axes.")
+          "[N m] n×3, torque about each handle, in its own axes.")
       .def_property_readonly(
           "forces_world", [](const FeltTick& t) { return t.rows(&ToolTick::force_W); },
-          "[N] n×3, world axes.")
+          "[N] n×3, force on each device, world axes.")
       .def_property_readonly(
           "torques_world", [](const FeltTick& t) { return t.rows(&ToolTick::torque_W); },
-          "[N m] n×3, world axes.")
+          "[N m] n×3, torque about each handle, world axes.")
       .def_property_readonly("grip_efforts", &FeltTick::grip_efforts,
-                             "[J] On the grips of each device: work by their values.")
+                             "[J] Efforts on the grips of each device: work by their values.")
       .def_property_readonly("joint_efforts", &FeltTick::joint_efforts,
-                             "[N m or N] (n,), on the joints of all tools.")
+                             "[N m or N] (n,), efforts on the joints of all tools.")
       .def_property_readonly("targets", &FeltTick::targets,
-                             "Poses of the tools that the devices ask for.")
-      .def_property_readonly("faults", &FeltTick::faults,
-                             "For each tool, words joined by a bar; empty where all is well.")
+                             "Poses of the tools that follow from the devices' poses.")
+      .def_property_readonly(
+          "faults", &FeltTick::faults,
+          "State of each tool as words joined by a bar; empty where all is well.")
       .def_property_readonly(
           "contact_count", [](const FeltTick& t) { return t.tick.contacts; },
-          "Contacts of the set that acted.")
+          "Number of contacts of the set that acted.")
       .def_property_readonly(
-          "pressing", [](const FeltTick& t) { return t.tick.pressing; }, "Those that press.")
+          "pressing", [](const FeltTick& t) { return t.tick.pressing; },
+          "Number of contacts that press.")
       .def("__repr__", [](const FeltTick& t) {
         return "<HapticTick at " + std::to_string(t.tick.time_ns) + " ns, " +
                std::to_string(t.tick.pressing) + " contacts press>";
@@ -255,47 +259,47 @@ void bind_haptics(py::module_& m) {
       m, "HapticSession",
       R"(Tools of a scene that follow haptic devices, tick by tick in virtual time.
 
-The scene has "haptics" (see "Feel a mesh"). A tool passes through nothing; its contacts push back.
-The same on every run. One thread at a time may use a session.)")
+The scene has "haptics" (see "Feel a mesh"). A tool passes through nothing, and its contacts push
+back. A session is the same on every run. One thread at a time may use it.)")
       .def(
           py::init(&make_felt_session), py::arg("scene"), py::kw_only(), py::arg("duration") = 10.0,
           py::arg("latency") = 0.0,
-          R"(scene: as load_scene takes it. duration: [s] of the record; bodies that move go on so long.
-latency: [s] that a cycle of the contact loop takes.)")
+          R"(scene: as for load_scene. duration: [s] of the record; moving bodies go on for so long.
+latency: [s] duration of a cycle of the contact loop.)")
       .def("step", &FeltSession::step, py::arg("poses"),
            py::arg("buttons") = std::vector<std::uint32_t>{},
            py::arg("grips") = std::vector<std::vector<double>>{},
            R"(Makes the next tick of the force loop; returns a HapticTick.
 
-poses: of the handles, a Pose for each tool; None for a device that is lost. buttons: bits, one
-number for each tool. grips: for each tool the values of its grips, 0 open, 1 closed; all 0 without.)")
+poses: of the handles, a Pose for each tool; None for a lost device. buttons: bits, one number for
+each tool. grips: for each tool the values of its grips, 0 open, 1 closed; all 0 without them.)")
       .def_property_readonly(
           "time",
           [](const FeltSession& s) { return 1e-9 * static_cast<double>(s.session().time_ns()); },
-          "[s] Of the next tick.")
+          "[s] Time of the next tick.")
       .def_property_readonly(
           "dt",
           [](const FeltSession& s) {
             return 1e-9 * static_cast<double>(s.session().force_period_ns());
           },
-          "[s] From tick to tick.")
-      .def_property_readonly("poses", &FeltSession::poses, "Where the tools are.")
+          "[s] Time from tick to tick.")
+      .def_property_readonly("poses", &FeltSession::poses, "Present poses of the tools.")
       .def_property_readonly("joints", &FeltSession::joints,
-                             "[rad or m] (n,), where the joints of all tools are.")
+                             "[rad or m] (n,), present positions of the joints of all tools.")
       .def_property_readonly("joint_names", &FeltSession::joint_names,
-                             "Of the joints that grips move, in the order of joints.")
+                             "Names of the joints that grips move, in the order of joints.")
       .def_property_readonly(
           "contact_points", [](const FeltSession& s) { return s.contacts(&HapticContact::point); },
-          "[m] n×3, of the newest contacts.")
+          "[m] n×3, points of the newest contacts.")
       .def_property_readonly(
           "contact_normals",
           [](const FeltSession& s) { return s.contacts(&HapticContact::normal); },
-          "n×3, towards the tool.")
+          "[-] n×3, normals towards the tool.")
       .def_property_readonly("contact_gaps", &FeltSession::gaps, "[m] (n,)")
       .def_property_readonly(
           "contact_distance",
           [](const FeltSession& s) { return s.session().contacts().contact_distance(); },
-          "[m] Tools that touch rest at this distance to one and a half of it.")
+          "[m] Touching tools rest at this distance up to one and a half of it.")
       .def_property_readonly(
           "header_json",
           [](const FeltSession& s) { return without_line_feed(write_run_header(s.header())); },

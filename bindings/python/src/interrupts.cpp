@@ -14,7 +14,7 @@ namespace firstcontact::python {
 
 namespace py = pybind11;
 
-/// Who waits for signals, and which query they stop. One for the process, for good.
+/// The thread that waits for signals, and the query that they stop. One for the whole process.
 struct SignalWatch {
   pthread_t main_thread = pthread_self();
   std::mutex mutex;
@@ -61,7 +61,7 @@ SignalWatch& the_watch() {
 struct sigaction before;  // What handled SIGINT before us: Python.
 sem_t* woken = nullptr;
 
-/// Python takes note before the query ends.
+/// Makes Python note the signal before the query ends.
 extern "C" void on_interrupt(int signal) {
   const int kept = errno;
   before.sa_handler(signal);
@@ -69,8 +69,9 @@ extern "C" void on_interrupt(int signal) {
   errno = kept;
 }
 
-/// Puts our handler before Python's, which may be a new one since last time. Where Python ignores
-/// the signal or leaves it to the system, so do we.
+/// Puts our handler before Python's, which may have changed since the last time.
+///
+/// Where Python ignores the signal or leaves it to the system, so does this library.
 void stand_before_python() {
   struct sigaction now = {};
   sigaction(SIGINT, nullptr, &now);

@@ -13,11 +13,12 @@
 
 namespace firstcontact::python {
 
-/// Stops the query that runs while it lives, on Ctrl-C in the main thread, or as its user says.
+/// Stops the query that runs during its lifetime, on Ctrl-C in the main thread or by the user's
+/// stop.
 ///
-/// Python's own handler only takes a note of the signal, as no Python code runs during a query; so
-/// a handler before it wakes a thread that requests the stop. A stop that Python's handlers do not
-/// turn into an exception is none: was_interrupted() then asks for the query once more.
+/// Python's own handler only notes the signal, as no Python code runs during a query. So a handler
+/// before it wakes a thread that requests the stop. A stop that Python's handlers do not turn into
+/// an exception is none: was_interrupted() then requests the query once more.
 class QueryStop {
  public:
   /// @param user  may be null
@@ -28,15 +29,15 @@ class QueryStop {
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
 
-  /// Before the query, with the GIL: what came earlier ends nothing that begins now.
+  /// Prepares a query, with the GIL: earlier signals end nothing that begins now.
   ///
   /// @throws the exception of a handler
   static void handle_pending();
 
-  /// Ends the query with an exception of a callback. Any thread.
+  /// Ends the query with an exception of a callback. May be called by any thread.
   void fail(std::exception_ptr error);
 
-  /// After the query, with the GIL.
+  /// Ends the watch after the query, with the GIL.
   ///
   /// @returns whether a signal stopped the query that no handler turned into an exception
   /// @throws the exception of a handler or of a callback
@@ -56,8 +57,8 @@ class QueryStop {
 
 /// Runs a query without the GIL, so that other threads of Python run and Ctrl-C ends it.
 ///
-/// @param query  called with the stop to hand on; more than once if a signal came that means
-///               nothing
+/// @param query  called with the stop to hand on; more than once if a signal came that had no
+///               effect
 template <typename Query>
 auto run_query(const std::stop_source* user, const Query& query) {
   while (true) {
@@ -73,11 +74,13 @@ auto run_query(const std::stop_source* user, const Query& query) {
   }
 }
 
-/// A progress callback for the calling thread, which has let go of the GIL; its exceptions end the
-/// query. Refers to both.
+/// A progress callback for the calling thread, which has released the GIL; its exceptions end the
+/// query.
+///
+/// Refers to both arguments.
 std::function<void(double)> progress_of(const pybind11::object& callback, QueryStop& stop);
 
-/// To be called once, at import in the main thread.
+/// Prepares signals; to be called once, at import in the main thread.
 void watch_signals();
 
 }  // namespace firstcontact::python

@@ -111,7 +111,7 @@ void bind_pose(py::module_& m) {
   py::class_<Pose>(m, "Pose", R"(Pose of a body in the world: p_world = position + R p_body.
 
 The rotation is that of the quaternion divided by its exact length. `rpy` and `rotation_vector` are
-converted in double precision; what is proven holds for the converted numbers.)")
+converted in double precision. Proofs hold for the converted numbers.)")
       .def(py::init(&make_pose), py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
            py::kw_only(),  // A quaternion by its place may be meant as xyzw.
            py::arg("quaternion_wxyz") = py::none(), py::arg("rpy") = py::none(),
@@ -120,7 +120,7 @@ converted in double precision; what is proven holds for the converted numbers.)"
 quaternion_wxyz: [-] (4,), any length but zero. rpy: [rad] (3,), about the fixed axes x, then y,
 then z. rotation_vector: [rad] (3,), axis times angle. At most one of these three.)")
       .def_static("from_matrix", &pose_of, py::arg("matrix"),
-                  "matrix: [-, m] 4×4, its rotation rigid to 1e-9.")
+                  "Makes a pose of a matrix: [-, m] 4×4, its rotation rigid to 1e-9.")
       .def_property_readonly(
           "position", [](const Pose& pose) { return copied(pose.position); }, "[m] (3,)")
       .def_property_readonly(
@@ -129,8 +129,9 @@ then z. rotation_vector: [rad] (3,), axis times angle. At most one of these thre
             return py::array(py::cast(std::array<double, 4>{pose.rotation.w(), pose.rotation.x(),
                                                             pose.rotation.y(), pose.rotation.z()}));
           },
-          "[-] (4,), as given.")
-      .def_property_readonly("matrix", &matrix_of, "[-, m] 4×4, rounded to doubles.")
+          "[-] (4,), the quaternion as given.")
+      .def_property_readonly("matrix", &matrix_of,
+                             "The pose as a matrix: [-, m] 4×4, rounded to doubles.")
       .def("__eq__",
            [](const Pose& a, const py::object& b) {
              return py::isinstance<Pose>(b) && equal(a, b.cast<const Pose&>());
@@ -158,7 +159,7 @@ then z. rotation_vector: [rad] (3,), axis times angle. At most one of these thre
 void bind_motion(py::module_& m) {
   bind_pose(m);
   py::class_<RecordedMotion>(m, "Motion",
-                             R"(How a body moves over the step, t in [0, 1]; never changes.
+                             R"(Motion of a body over the step, t in [0, 1]; never changes.
 
 The motion is the exact real-number function that the doubles given to its factory define.
 All factories raise ValueError on NaN, infinities, zero quaternions or axes.)")
@@ -167,17 +168,19 @@ All factories raise ValueError on NaN, infinities, zero quaternions or axes.)")
           [](const Pose& pose) {
             return RecordedMotion{Motion::fixed(pose), "fixed", py::make_tuple(pose)};
           },
-          py::arg("pose") = Pose{}, "Rests at `pose`.")
+          py::arg("pose") = Pose{}, "Makes a motion that rests at `pose`.")
       .def_static(
           "constant_velocity",
           [](const Pose& start, const Pose& to) {
             return RecordedMotion{Motion::constant_velocity(start, to), "constant_velocity",
                                   py::make_tuple(start, to)};
           },
-          py::arg("start"), py::arg("to"), "From one pose to another, by the shortest rotation.")
-      .def_static("constant_velocity", &constant_velocity, py::arg("start"), py::arg("translation"),
-                  py::arg("rotation_vector") = py::make_tuple(0.0, 0.0, 0.0),
-                  R"(The body's origin moves on a line, the body turns about it at a constant rate.
+          py::arg("start"), py::arg("to"),
+          "Makes a motion from one pose to another, by the shortest rotation.")
+      .def_static(
+          "constant_velocity", &constant_velocity, py::arg("start"), py::arg("translation"),
+          py::arg("rotation_vector") = py::make_tuple(0.0, 0.0, 0.0),
+          R"(Makes a motion at constant rates: the origin moves on a line, the body turns about it.
 
 translation: [m] (3,), over the step, world frame. rotation_vector: [rad] (3,), axis times angle
 over the step, world frame; any number of turns.)")
@@ -186,18 +189,20 @@ over the step, world frame; any number of turns.)")
           [](const Pose& start, const Pose& to) {
             return RecordedMotion{Motion::screw(start, to), "screw", py::make_tuple(start, to)};
           },
-          py::arg("start"), py::arg("to"), "From one pose to another, by the shortest rotation.")
-      .def_static("screw", &screw, py::arg("start"), py::arg("axis_point"),
-                  py::arg("axis_direction"), py::arg("angle"), py::arg("translation"),
-                  R"(Rotation about, and translation along, one axis, applied to the start pose.
+          py::arg("start"), py::arg("to"),
+          "Makes a motion from one pose to another, by the shortest rotation.")
+      .def_static(
+          "screw", &screw, py::arg("start"), py::arg("axis_point"), py::arg("axis_direction"),
+          py::arg("angle"), py::arg("translation"),
+          R"(Makes a screw motion: rotation about one axis, and translation along it, from a pose.
 
 axis_point: [m] (3,), world frame. axis_direction: [-] (3,), any length but zero, world frame.
 angle: [rad] over the step; any number of turns. translation: [m] along the axis over the step.)")
       .def_static("waypoints", &waypoints, py::arg("times"), py::arg("poses"),
                   py::arg("between") = Between::constant_velocity,
-                  R"(Through n poses; at rest before the first and after the last.
+                  R"(Makes a motion through n poses; at rest before the first and after the last.
 
-times: [-] (n,), in [0, 1], strictly increasing. poses: n of them. between: how it runs from pose
+times: [-] (n,), in [0, 1], strictly increasing. poses: n of them. between: kind of motion from pose
 to pose.)")
       .def_property_readonly(
           "breaks",

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// N corners, one per row.
+/// Reads N corners, one per row.
 template <std::size_t N>
 std::array<Vector3d, N> corners_from(const py::object& value, const char* name) {
   const std::vector<Vector3d> points = points_from(value, name);
@@ -55,9 +55,11 @@ LinearPoint moving_point(const py::object& value, const char* name) {
 void bind_linear(py::module_& m) {
   py::class_<LinearContact>(m, "LinearContact", "First contact of two deforming features.")
       .def_readonly("verdict", &LinearContact::verdict)
-      .def_readonly("t", &LinearContact::t, "[-] Before it they are proven apart; 1 when free.")
+      .def_readonly("t", &LinearContact::t,
+                    "[-] Time before which they are proven apart; 1 when free.")
       .def_readonly("tolerance_used", &LinearContact::tolerance_used,
-                    "[m] Holds in place of the asked one; larger only where doubles of t need it.")
+                    "[m] Tolerance that holds in place of the one asked for; larger only where "
+                    "doubles of t need it.")
       .def_readonly("steps", &LinearContact::steps)
       .def("__repr__", [](const LinearContact& found) {
         return "<LinearContact: " + std::string(py::str(py::cast(found.verdict))) +
@@ -73,7 +75,7 @@ void bind_linear(py::module_& m) {
       },
       py::arg("vertex"), py::arg("face"), py::kw_only(), py::arg("margin") = 0.0,
       py::arg("tolerance") = 1e-6, py::arg("maximum_steps") = 10'000,
-      R"(When do a vertex and a face first come within the margin, whose corners move on lines?
+      R"(Finds the first time at which a vertex and a face, moving on lines, are within the margin.
 
 vertex: [m] the pair of its positions at 0 and at 1, each (3,). face: likewise, each 3×3.
 margin, tolerance: [m].)");
@@ -87,7 +89,7 @@ margin, tolerance: [m].)");
       },
       py::arg("A"), py::arg("B"), py::kw_only(), py::arg("margin") = 0.0,
       py::arg("tolerance") = 1e-6, py::arg("maximum_steps") = 10'000,
-      R"(When do two edges first come within the margin, whose ends move on lines?
+      R"(Finds the first time at which two edges, whose ends move on lines, are within the margin.
 
 A, B: [m] the pair of the ends at 0 and at 1, each 2×3. margin, tolerance: [m].)");
 }
@@ -102,14 +104,14 @@ ElementaryMotion elementary_motion(const RecordedMotion& A, const RecordedMotion
 }
 
 void bind_elementary(py::module_& m) {
-  py::class_<ElementaryContact>(m, "ElementaryContact", "How an elementary test ended.")
+  py::class_<ElementaryContact>(m, "ElementaryContact", "Outcome of an elementary test.")
       .def_readonly("verdict", &ElementaryContact::verdict)
       .def_readonly("t_lower", &ElementaryContact::t_lower,
-                    "[-] The features provably do not meet before this time.")
+                    "[-] Time before which the features provably do not meet.")
       .def_readonly("t_upper", &ElementaryContact::t_upper,
                     "[-] For `contact` the end of the isolating interval, else t_lower.")
       .def_readonly("existence_proven", &ElementaryContact::existence_proven,
-                    "For `contact`: proven that the features meet in the interval.")
+                    "For `contact`: whether it is proven that the features meet in the interval.")
       .def_readonly("steps", &ElementaryContact::steps)
       .def("__repr__", [](const ElementaryContact& found) {
         return "<ElementaryContact: " + std::string(py::str(py::cast(found.verdict))) +
@@ -130,7 +132,7 @@ void bind_elementary(py::module_& m) {
       py::arg("face_A"), py::arg("X_WA"), py::arg("vertex_B"), py::arg("X_WB"), py::kw_only(),
       py::arg("t_begin") = 0.0, py::arg("t_end") = 1.0, py::arg("time_tolerance") = 1e-10,
       py::arg("maximum_steps") = 10'000,
-      R"(When does a vertex of body B first lie on a face of body A?
+      R"(Finds the first time at which a vertex of body B lies on a face of body A.
 
 face_A: [m] 3×3, in A's frame. vertex_B: [m] (3,), in B's frame. X_WA, X_WB: motions of one piece.)");
   m.def(
@@ -148,7 +150,7 @@ face_A: [m] 3×3, in A's frame. vertex_B: [m] (3,), in B's frame. X_WA, X_WB: mo
       py::arg("edge_A"), py::arg("X_WA"), py::arg("edge_B"), py::arg("X_WB"), py::kw_only(),
       py::arg("t_begin") = 0.0, py::arg("t_end") = 1.0, py::arg("time_tolerance") = 1e-10,
       py::arg("maximum_steps") = 10'000,
-      R"(When does an edge of body A first cross an edge of body B?
+      R"(Finds the first time at which an edge of body A crosses an edge of body B.
 
 edge_A, edge_B: [m] 2×3, each in its body's frame. X_WA, X_WB: motions of one piece.)");
 }

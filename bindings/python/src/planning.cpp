@@ -76,8 +76,9 @@ std::vector<Configuration> places_from(py::handle value, const char* name, std::
   return places;
 }
 
-/// What is wrong with a place; empty where an edge may begin or end there. Joints may be beyond
-/// their limits, and quaternions of any length that is no rounding.
+/// The defect of a place; empty where an edge may begin or end there.
+///
+/// Joints may be beyond their limits, and quaternions of any length that is not rounding.
 std::string problem_of(const ConfigurationSpace& space, const Configuration& place) {
   if (!std::ranges::all_of(place, [](double number) { return std::abs(number) <= 1e8; })) {
     return space.defect(place).value_or("expected finite numbers");
@@ -145,7 +146,7 @@ class HeldEdges {
     return tuple_of_planning("EdgeAnswers")(is_free, is_undecided, fractions, clearances);
   }
 
-  /// [m]  Of each place: 0 where it is not free, NaN where no pair is tested.
+  /// [m]  The clearance at each place: 0 where it is not free, NaN where no pair is tested.
   py::array clearances(py::handle places) const {
     const std::vector<Configuration> all = places_from(places, "places", size());
     require_places_of(plan_.plan.space, all, "places");
@@ -232,11 +233,12 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
 void bind_planning(py::module_& m) {
   const EdgeCheckOptions defaults;
   py::class_<HeldEdges>(m, "EdgeChecker",
-                        R"(Edges and places of a planner, proven to be free.
+                        R"(Checker of a planner's edges and places, which proves them free.
 
-scene: with "plan", whose mover and start and goals it takes. extra_clearance: [m] what edges keep
-beyond the margins. effort: steps of the search for each two geometries; more is undecided. Pairs
-that "plan" has in "contact_pairs" keep their margins here. From many threads at a time.)")
+scene: with "plan", which gives the mover, starts and goals. extra_clearance: [m] distance that
+edges keep beyond the margins. effort: steps of the search for each two geometries; with more an
+edge is undecided. Pairs of "contact_pairs" in "plan" keep their margins here. Many threads may use
+one checker at a time.)")
       .def(py::init([](const HeldScene& scene, double extra_clearance, std::uint64_t effort) {
              ScenePlan asked = plan_of(scene);
              const double tolerance = asked.options.tolerance;
@@ -248,7 +250,7 @@ that "plan" has in "contact_pairs" keep their margins here. From many threads at
            py::arg("scene"), py::kw_only(), py::arg("extra_clearance") = defaults.extra_clearance,
            py::arg("effort") = defaults.effort)
       .def_property_readonly("joints", &joint_names_of,
-                             "The coordinates of a place; none of a body.")
+                             "The coordinates of a place; empty for a body.")
       .def_property_readonly(
           "start", [](const HeldEdges& edges) { return owning(edges.plan().start); },
           "The start of the scene's plan.")
@@ -261,11 +263,10 @@ that "plan" has in "contact_pairs" keep their margins here. From many threads at
            R"(Checks edges, n×d numbers each: the k-th leads from start[k] to end[k].
 
 threads: at most; 0 for one on each core. Other threads of Python run meanwhile.)")
-      .def(
-          "clearance", &HeldEdges::clearances, py::arg("places"),
-          R"([m] A proven lower bound of the distance of all tested pairs at each place, n×d numbers.
+      .def("clearance", &HeldEdges::clearances, py::arg("places"),
+           R"(Computes [m] a proven lower bound of the distances of tested pairs at each place.
 
-0 where a place is not free; NaN where no pair is tested.)");
+places: n×d numbers. 0 where a place is not free; NaN where no pair is tested.)");
   m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("contacts"),
         py::arg("seed"), py::arg("time"), py::arg("shortcuts"), py::arg("approximate"),
         py::arg("threads"), py::arg("stop"));

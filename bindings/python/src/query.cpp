@@ -80,11 +80,11 @@ void bind_pair_questions(py::module_& m) {
       py::arg("stop") = py::none(),
       R"(Finds the first contact of A and B during the step.
 
-A, B: pairs (Shape, Motion), or (Shape, Pose) where one rests. margin: [m] closer than this counts as contact. tolerance: [m] a
-reported contact is no farther than margin + tolerance. contact_band: [m] reports pairs within
-margin + tolerance + band. contacts: which feature pairs are listed; a number: so many at most, the
-nearest and some of every region. steps, memory [byte], deadline [s], stop: a budget; spending it gives
-`undecided`, never a guess.
+A, B: pairs (Shape, Motion), or (Shape, Pose) where one rests. margin: [m] closer than this counts
+as contact. tolerance: [m] a reported contact is no farther than margin + tolerance. contact_band:
+[m] reports pairs within margin + tolerance + band. contacts: the choice of listed feature pairs; a
+number: at most so many, the nearest and some of every region. steps, memory [byte], deadline [s],
+stop: a budget; spending it gives `undecided`, never a guess.
 
 Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
 Symmetric in A and B, and the same on every run without a deadline or a stop.
@@ -107,9 +107,9 @@ Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.)");
       py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
       py::arg("tolerance") = 1e-6, py::arg("steps") = py::none(), py::arg("memory") = kMemory,
       py::arg("deadline") = py::none(), py::arg("stop") = py::none(),
-      R"(Least distance of A and B over the step, to the tolerance [m], with a time where it is attained.
+      R"(Finds the least distance of A and B over the step, to the tolerance [m], with a time of it.
 
-A, B: as of first_contact, and so the budget.)");
+A, B, and the budget: as for first_contact.)");
   m.def(
       "distance",
       [](const py::object& A, const py::object& B, double t, OrNone<PairWorkspace> workspace) {
@@ -121,12 +121,12 @@ A, B: as of first_contact, and so the budget.)");
         });
       },
       py::arg("A"), py::arg("B"), py::arg("t") = 0.0, py::arg("workspace") = py::none(),
-      R"(Distance of A(t) and B(t), pairs (Shape, Motion), or (Shape, Pose) where one rests.
+      R"(Finds the distance of A(t) and B(t).
 
-t: [-] in [0, 1].)");
+A, B: pairs (Shape, Motion), or (Shape, Pose) where one rests. t: [-] in [0, 1].)");
 }
 
-/// A question about a set of bodies, as it comes from Python.
+/// A question about a set of bodies, with its arguments from Python.
 struct SetQuery {
   HeldBodySet& set;
   SetWorkspace* workspace;
@@ -147,8 +147,9 @@ auto ask_set(SetQuery query, const Ask& ask) {
   });
 }
 
-/// Defines a question about a set of bodies; `extra` are its documentation and arguments of its
-/// own.
+/// Defines a question about a set of bodies.
+///
+/// @param extra  its documentation, and arguments of its own
 template <typename Question, typename... Extra>
 void bind_set_question(py::module_& m, const char* name, Question question, const Extra&... extra) {
   m.def(name, question, py::arg("bodies"), py::arg("workspace") = py::none(), py::kw_only(),
@@ -188,8 +189,8 @@ void bind_set_questions(py::module_& m) {
       R"(Finds the first contact of all pairs of bodies that the rules do not ignore.
 
 threads: at most; 0 for one on each core; the answer does not depend on it. progress: called now
-and then with the time that is proven free so far. The rest as for two bodies; margins are in the
-rules, the budget holds for each pair.)");
+and then with the time that is proven free so far. The other arguments are those for two bodies.
+Margins are in the rules, and the budget holds for each pair.)");
   bind_set_question(
       m, "answer_each_pair",
       [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
@@ -209,16 +210,16 @@ rules, the budget holds for each pair.)");
             });
       },
       py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
-      R"(The answer of every pair that the rules do not ignore, over the whole step, by their order.
+      R"(Answers every pair that the rules do not ignore, over the whole step, in their order.
 
-closest: also the closest approach of each. all_contacts_in_time: also from when to when each is in
-contact. progress: called with the part that is done. The rest as
-of first_contact.)");
+closest: also the closest approach of each. all_contacts_in_time: also all intervals of contact of
+each. progress: called with the share that is done. The other arguments are those of
+first_contact.)");
 }
 
 // Sets of bodies
 
-/// Rules of their own, or those of a set.
+/// Rules of their own, or the rules of a set.
 struct HeldRules {
   PairRules own;
   py::object set;  // None for rules of their own.
@@ -243,8 +244,8 @@ void bind_rules(py::module_& m) {
   py::class_<HeldRules>(m, "PairRules",
                         R"(Rules for pairs of bodies, by their numbers, and for groups of them.
 
-A pair that any rule ignores is not tested. Else its own margin holds; or the greatest that groups
-give it; or the general one.)")
+A pair that any rule ignores is not tested. Otherwise its own margin holds, or the greatest one of
+its groups, or the general one.)")
       .def(py::init([](double margin) {
              return HeldRules{PairRules(margin), py::none()};
            }),
@@ -252,44 +253,46 @@ give it; or the general one.)")
       .def(
           "ignore",
           [](HeldRules& rules, const BodyPair& pair) { rules.changed().ignore(ordered(pair)); },
-          py::arg("pair"), "Does not test this pair.")
+          py::arg("pair"), "Excludes a pair from the tests.")
       .def(
           "set_margin",
           [](HeldRules& rules, const BodyPair& pair, double margin) {
             rules.changed().set_margin(ordered(pair), margin);
           },
-          py::arg("pair"), py::arg("margin"), "margin: [m] >= 0.")
+          py::arg("pair"), py::arg("margin"), "Sets the margin of a pair. margin: [m] >= 0.")
       .def(
           "add_group",
           [](HeldRules& rules, std::vector<std::size_t> bodies) {
             return rules.changed().add_group(std::move(bodies));
           },
-          py::arg("bodies"), "Returns the number of the group.")
+          py::arg("bodies"), "Adds a group and returns its number.")
       .def(
           "ignore_groups",
           [](HeldRules& rules, std::size_t group, std::size_t other) {
             rules.changed().ignore_groups(group, other);
           },
           py::arg("group"), py::arg("other"),
-          "Tests no body of one with a body of the other; with itself: no pair inside it.")
+          "Excludes the pairs of two groups from the tests; with one group twice, all pairs inside "
+          "it.")
       .def(
           "set_group_margin",
           [](HeldRules& rules, std::size_t group, std::size_t other, double margin) {
             rules.changed().set_group_margin(group, other, margin);
           },
-          py::arg("group"), py::arg("other"), py::arg("margin"), "margin: [m] >= 0.")
+          py::arg("group"), py::arg("other"), py::arg("margin"),
+          "Sets the margin of the pairs of two groups. margin: [m] >= 0.")
       .def(
           "margin",
           [](HeldRules& rules, const BodyPair& pair) { return rules.get().margin(ordered(pair)); },
-          py::arg("pair"), "[m] None where the pair is not tested.");
+          py::arg("pair"), "[m] The margin of a pair; None where it is not tested.");
 }
 
 void bind_body_set(py::module_& m) {
   py::class_<HeldBodySet> type(m, "BodySet",
                                R"(Moving bodies, numbered from 0, and the rules for their pairs.
 
-Replacing one body's shape or motion costs what that body needs; nothing else is rebuilt. Several
-threads may query one set at once; it cannot change meanwhile.)");
+Replacing one body's shape or motion costs only the work for that body. Several threads may query
+one set at once; it cannot change meanwhile.)");
   type.def(py::init([](HeldRules* rules) {
              return HeldBodySet{BodySet(rules != nullptr ? rules->get() : PairRules()), {}, {}, 0};
            }),
@@ -299,7 +302,7 @@ threads may query one set at once; it cannot change meanwhile.)");
           [](const py::object& self) {
             return HeldRules{PairRules(), self};
           },
-          "The rules of this set, to be changed.")
+          "The rules of this set; they may be changed.")
       .def(
           "add",
           [](HeldBodySet& set, const py::object& shape, const py::object& X_WS) {
@@ -309,7 +312,7 @@ threads may query one set at once; it cannot change meanwhile.)");
             set.motions.push_back(X_WS);
             return body;
           },
-          py::arg("shape"), py::arg("X_WS"), "Returns the body's number.")
+          py::arg("shape"), py::arg("X_WS"), "Adds a body and returns its number.")
       .def(
           "set_shape",
           [](HeldBodySet& set, std::size_t body, const py::object& shape) {
@@ -351,15 +354,15 @@ void bind_helpers(py::module_& m) {
 One for each thread. Without one, a query takes memory that an earlier one left behind.)")
       .def(py::init<>());
   py::class_<SetWorkspace>(m, "ManyBodiesWorkspace",
-                           "Scratch memory of the queries of many bodies, as Workspace.")
+                           "Scratch memory of the queries of many bodies, used like Workspace.")
       .def(py::init<>());
   py::class_<std::stop_source>(m, "StopSource",
-                               R"(Ends the queries that it was given to, with what is proven so far.
+                               R"(Stop signal for queries: they end with what is proven so far.
 
 A copy that was sent to another process never stops anything.)")
       .def(py::init<>())
       .def("request_stop", &std::stop_source::request_stop,
-           "From any thread. Returns whether it is the first request.")
+           "Requests the stop, from any thread. Returns whether it is the first request.")
       .def_property_readonly("stop_requested", &std::stop_source::stop_requested)
       .def(py::pickle([](const std::stop_source&) { return py::make_tuple(); },
                       [](const py::tuple&) { return std::stop_source(); }));

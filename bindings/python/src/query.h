@@ -1,5 +1,5 @@
 /// @file
-/// What the queries of Python share.
+/// The parts that the queries of Python share.
 
 #pragma once
 
@@ -26,8 +26,9 @@
 
 namespace firstcontact::python {
 
-/// An argument that may be None. (As a plain pointer, None would make pybind11 try every overload a
-/// second time.)
+/// An argument that may be None.
+///
+/// With a plain pointer, None would make pybind11 try every overload a second time.
 template <typename T>
 struct OrNone {
   T* value = nullptr;
@@ -41,8 +42,9 @@ struct HeldWorkspace {
   bool is_busy = false;
 };
 
-/// Scratch memory for one query: the user's, or some that an earlier query left behind. Made and
-/// destroyed with the GIL, which guards all of it.
+/// Scratch memory for one query: the user's, or some of an earlier query.
+///
+/// It is made and destroyed with the GIL, which guards all of it.
 template <typename W>
 class Lease {
  public:
@@ -76,7 +78,7 @@ class Lease {
   [[nodiscard]] W& get() { return held_ != nullptr ? held_->workspace : *own_; }
 
  private:
-  /// Never destroyed: there is no GIL at the end of the process.
+  /// Never destroyed, as there is no GIL at the end of the process.
   static std::vector<std::unique_ptr<W>>& idle() {
     static auto* const workspaces = new std::vector<std::unique_ptr<W>>;
     return *workspaces;
@@ -126,13 +128,14 @@ struct GivenShape {
 /// @throws pybind11::type_error
 GivenShape given_shape_from(pybind11::handle value, const char* name);
 
-/// The first shape of a question that is also asked about a BodySet: that one is for the next
-/// overload, anything else gets a complaint.
+/// The first shape of a question that also exists for a BodySet.
+///
+/// A BodySet is for the next overload; other arguments get a complaint.
 struct FirstShape {
   pybind11::object value;
 };
 
-/// The time in so many seconds; none for ever.
+/// The time after a number of seconds; none without a number.
 ///
 /// @throws std::invalid_argument unless > 0
 std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<double> seconds);
@@ -140,7 +143,7 @@ std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<d
 /// Binds contacts and the results of queries.
 void bind_query_results(pybind11::module_& m);
 
-/// States for pickling.
+/// States of values for pickling.
 pybind11::tuple state_of(const Contact& contact);
 Contact contact_from(const pybind11::tuple& state);
 pybind11::tuple state_of(const PairAnswer& answer);
@@ -151,7 +154,7 @@ SceneResult scene_result_from(const pybind11::tuple& state);
 /// The contacts as a tuple of objects.
 pybind11::tuple contact_tuple(const std::vector<Contact>& contacts);
 
-/// "contact at t = 0.5"
+/// Describes a verdict: "contact at t = 0.5".
 std::string verdict_text(const Outcome& outcome);
 
 }  // namespace firstcontact::python

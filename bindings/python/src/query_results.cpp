@@ -183,7 +183,7 @@ void bind_contact(py::module_& m) {
   py::class_<Feature> feature(m, "Feature",
                               "A vertex, a unique edge or a face of a shape, by its index.");
   feature.def_readonly("type", &Feature::type)
-      .def_readonly("index", &Feature::index, "Of the vertex, the edge or the triangle.")
+      .def_readonly("index", &Feature::index, "Index of the vertex, the edge or the triangle.")
       .def_readonly("triangle", &Feature::triangle, "A triangle that the feature belongs to.")
       .def("__eq__",
            [](const Feature& a, const py::object& b) {
@@ -217,21 +217,23 @@ void bind_contact(py::module_& m) {
           "normal",
           [](const Contact& c) { return c.n_AB_W ? py::object(copied(*c.n_AB_W)) : py::none(); },
           "[-] (3,), unit, world frame, from A to B; None where no feature normal decides.")
-      .def_readonly("distance", &Contact::distance, "[m] Negative: depth of thickened features.")
+      .def_readonly("distance", &Contact::distance,
+                    "[m] Distance of the points; negative: depth of thickened features.")
       .def_readonly("normal_velocity", &Contact::normal_velocity,
-                    "[m per step] Of B's point relative to A's along the normal; negative when "
-                    "closing. In the result of a scene [m/s].")
+                    "[m per step] Velocity of B's point relative to A's along the normal; negative "
+                    "when closing. In the result of a scene [m/s].")
       .def("__repr__", [](const Contact& c) {
         return "<Contact: " + describe(c.feature_A) + " and " + describe(c.feature_B) +
                ", distance " + number_text(c.distance) + " m>";
       });
   add_pickling<Contact>(contact, &python::state_of, &contact_from);
 
-  py::class_<WorkCount> work(m, "WorkCount", "Work done: counts, outside of what is proven.");
+  py::class_<WorkCount> work(m, "WorkCount", "Counts of work; no part of the proof.");
   work.def_readonly("node_groups", &WorkCount::node_groups,
-                    "Evaluations of up to 16 pairs of boxes.")
-      .def_readonly("triangle_pairs", &WorkCount::triangle_pairs, "Triangle pairs visited.")
-      .def_readonly("steps", &WorkCount::steps, "Certified steps of triangle pairs.")
+                    "Number of evaluations of up to 16 pairs of boxes.")
+      .def_readonly("triangle_pairs", &WorkCount::triangle_pairs,
+                    "Number of triangle pairs visited.")
+      .def_readonly("steps", &WorkCount::steps, "Number of certified steps of triangle pairs.")
       .def("__repr__", [](const WorkCount& count) {
         return "<WorkCount: " + std::to_string(count.node_groups) + " node groups, " +
                std::to_string(count.triangle_pairs) + " triangle pairs, " +
@@ -240,13 +242,13 @@ void bind_contact(py::module_& m) {
   add_pickling<WorkCount>(work, &state_of, &work_from);
 }
 
-/// Defines what every answer begins with.
+/// Defines the fields that every answer has.
 template <typename T, typename... Options>
 void add_outcome(py::class_<T, Options...>& type, const char* t, const char* clearance,
                  const char* tolerance_used, const char* enclosure_error) {
   refuse_as_condition(type);
   type.def_readonly("verdict", &T::verdict)
-      .def_readonly("reason", &T::reason, "Why it is undecided.")
+      .def_readonly("reason", &T::reason, "The reason of `undecided`.")
       .def_readonly("t", &T::t, t)
       .def_readonly("t_upper", &T::t_upper,
                     "[-] For `contact` t; for `undecided` a later time that is proven to be in "
@@ -260,22 +262,23 @@ void add_outcome(py::class_<T, Options...>& type, const char* t, const char* cle
 void bind_pair_results(py::module_& m) {
   using Result = FirstContactResult;
   py::class_<Result> first(m, "FirstContactResult", "First contact of two moving shapes.");
-  add_outcome(first,
-              "[-] Before it the shapes are farther apart than the margin: proven. 1 when free.",
-              "[m] Proven lower bound of the distance before t.",
-              "[m] Holds in place of the asked one; larger only if doubles need it.",
-              "[m] Of both shapes: adds to the tolerance of a contact.");
+  add_outcome(
+      first,
+      "[-] Time before which the shapes are proven farther apart than the margin; 1 when free.",
+      "[m] Proven lower bound of the distance before t.",
+      "[m] Tolerance that holds in place of the one asked for; larger only if doubles need it.",
+      "[m] Sum of both shapes' enclosure errors: adds to the tolerance of a contact.");
   first
       .def_property_readonly(
           "contacts", [](const Result& result) { return contact_tuple(result.contacts); },
-          "At t, sorted by features; those that were asked for.")
+          "The contacts at t that were asked for, sorted by features.")
       .def_property_readonly(
           "contact_count", [](const Result& result) { return result.contact_count.at_least; },
-          "How many there are, those included that are not listed.")
+          "Number of contacts at t, those included that are not listed.")
       .def_property_readonly(
           "contact_count_is_exact",
           [](const Result& result) { return result.contact_count.is_exact; },
-          "Not where only the first was asked for, or counting ended early: then there may be "
+          "False where only the first was asked for, or counting ended early: then there may be "
           "more.")
       .def("__repr__", [](const Result& result) {
         return "<FirstContactResult: " + verdict_text(result) + ">";
@@ -283,13 +286,15 @@ void bind_pair_results(py::module_& m) {
   add_pickling<Result>(first, &state_of, &first_contact_result_from);
 
   py::class_<ClosestApproach> approach(m, "ClosestApproach",
-                                       "Where two shapes are closest over the step.");
+                                       "Closest approach of two shapes over the step.");
   approach
       .def_readonly("distance", &ClosestApproach::distance,
-                    "[m] Attained at t; an upper bound of the least distance over the step.")
-      .def_readonly("lower_bound", &ClosestApproach::lower_bound, "[m] Proven for all t in [0, 1].")
+                    "[m] Distance at t; an upper bound of the least distance over the step.")
+      .def_readonly("lower_bound", &ClosestApproach::lower_bound,
+                    "[m] Lower bound of the distance, proven for all t in [0, 1].")
       .def_readonly("t", &ClosestApproach::t, "[-] A time where `distance` is attained.")
-      .def_readonly("reason", &ClosestApproach::reason, "Not `none`: the budget ended the search.")
+      .def_readonly("reason", &ClosestApproach::reason,
+                    "Not `none` where the budget ended the search.")
       .def_readonly("closest", &ClosestApproach::closest, "The closest feature pair at t, or None.")
       .def("__repr__", [](const ClosestApproach& found) {
         return "<ClosestApproach: " + number_text(found.distance) +
@@ -300,8 +305,9 @@ void bind_pair_results(py::module_& m) {
   py::class_<Closest, ClosestApproach> closest(
       m, "ClosestApproachResult", "Closest approach of two moving shapes over the step.");
   closest.def_readonly("tolerance_used", &Closest::tolerance_used, "[m]")
-      .def_readonly("enclosure_error", &Closest::enclosure_error,
-                    "[m] Of both shapes: the bodies may be farther apart by this.")
+      .def_readonly(
+          "enclosure_error", &Closest::enclosure_error,
+          "[m] Sum of both shapes' enclosure errors: the bodies may be farther apart by this.")
       .def_readonly("work", &Closest::work)
       .def("__repr__", [](const Closest& result) {
         return "<ClosestApproachResult: " + number_text(result.distance) +
@@ -313,11 +319,12 @@ void bind_pair_results(py::module_& m) {
   py::class_<Distance> distance(m, "DistanceResult", "Distance of two shapes at one instant.");
   distance
       .def_readonly("distance", &Distance::distance,
-                    "[m] Of the closest points found, 0 when the shapes meet.")
+                    "[m] Distance of the closest points found; 0 when the shapes meet.")
       .def_readonly("lower_bound", &Distance::lower_bound,
                     "[m] Proven: the shapes are at least this far apart.")
-      .def_readonly("enclosure_error", &Distance::enclosure_error,
-                    "[m] Of both: the bodies may be farther apart by this.")
+      .def_readonly(
+          "enclosure_error", &Distance::enclosure_error,
+          "[m] Sum of both shapes' enclosure errors: the bodies may be farther apart by this.")
       .def_readonly("closest", &Distance::closest, "The closest feature pair, or None.")
       .def_readonly("work", &Distance::work)
       .def("__repr__", [](const Distance& result) {
@@ -328,18 +335,19 @@ void bind_pair_results(py::module_& m) {
 
 void bind_set_results(py::module_& m) {
   py::class_<PairAnswer, FirstContactResult> answer(
-      m, "PairAnswer", "What one pair of bodies answered: its first contact, and what was asked.");
+      m, "PairAnswer",
+      "Answer of one pair of bodies: its first contact, and what else was asked for.");
   answer
       .def_property_readonly(
           "members", [](const PairAnswer& a) { return py::make_tuple(a.members[0], a.members[1]); },
-          "Their numbers, the smaller first.")
+          "The numbers of the two bodies, the smaller first.")
       .def_readonly("margin", &PairAnswer::margin, "[m] Closer than this counts as contact.")
       .def_property_readonly(
           "intervals", [](const PairAnswer& a) { return states_of(a.intervals); },
-          "Of contact, in order: tuples of enter, leave and reason; where "
-          "all_contacts_in_time was asked.")
+          "Intervals of contact in order, as tuples of enter, leave and reason; with "
+          "all_contacts_in_time.")
       .def_readonly("closest", &PairAnswer::closest,
-                    "A ClosestApproach; None where it was not asked.")
+                    "The ClosestApproach; None where it was not asked for.")
       .def("__repr__", [](const PairAnswer& a) {
         return "<PairAnswer of " + std::to_string(a.members[0]) + " and " +
                std::to_string(a.members[1]) + ": " + verdict_text(a) + ">";
@@ -347,16 +355,16 @@ void bind_set_results(py::module_& m) {
   add_pickling<PairAnswer>(answer, &python::state_of, &pair_answer_from);
 
   py::class_<SceneResult> result(m, "SceneResult", "The first contact of a set of bodies.");
-  add_outcome(result, "[-] No pair is in contact before it: proven. 1 when free.",
+  add_outcome(result, "[-] Time before which no pair is in contact, proven; 1 when free.",
               "[m] Proven lower bound of every pair's distance up to t; infinite where there are "
               "no pairs.",
               "[m] The greatest of the pairs that were searched.", "[m] The greatest of these.");
   result
       .def_readonly("first", &SceneResult::first,
-                    "The index in pairs of the one that decides t; None when free.")
+                    "The index in pairs of the one that determines t; None when free.")
       .def_property_readonly(
           "pairs", [](const SceneResult& r) { return py::tuple(py::cast(r.pairs)); },
-          "PairAnswers of the pairs that decide t, by their order; none when free.")
+          "PairAnswers of the pairs that determine t, in their order; none when free.")
       .def("__repr__",
            [](const SceneResult& r) { return "<SceneResult: " + verdict_text(r) + ">"; });
   add_pickling<SceneResult>(result, &python::state_of, &scene_result_from);

@@ -28,7 +28,7 @@ inline pybind11::object pair_counts_tuple(const PairCounts& counts) {
   return report_function("pair_counts")(write_pair_counts(counts));
 }
 
-/// The text with control characters written out, as a representation shows it on a terminal.
+/// The text with control characters as escapes, as a representation shows it on a terminal.
 inline std::string printable(const std::string& text) {
   const pybind11::str shown(text);
   if (shown.attr("isprintable")().cast<bool>()) {
@@ -38,7 +38,7 @@ inline std::string printable(const std::string& text) {
   return quoted.substr(1, quoted.size() - 2);
 }
 
-/// What pickles hold of the reports that a scene has before it is loaded.
+/// The reports of a scene before it is loaded, for pickles.
 inline pybind11::tuple reports_state(const std::vector<FileReport>& reports) {
   pybind11::list list;
   for (const FileReport& report : reports) {

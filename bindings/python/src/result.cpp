@@ -52,7 +52,7 @@ struct SceneClosest {
   [[nodiscard]] const ClosestApproach& found() const { return *pair.answer().closest; }
 };
 
-/// A contact as scenes tell it: members by name, velocities in seconds.
+/// A contact of a scene: members by name, velocities per second.
 struct SceneContact : Contact {
   std::array<std::string, 2> bodies;
 };
@@ -233,13 +233,13 @@ std::shared_ptr<HeldResult> result_from(const py::tuple& state) {
   return result;
 }
 
-/// A getter of something of a pair.
+/// A getter of a field of a pair.
 template <typename T, typename Of>
 auto of_pair(T Of::*what) {
   return [what](const ScenePair& pair) { return pair.answer().*what; };
 }
 
-/// A getter of something of a closest approach.
+/// A getter of a field of a closest approach.
 template <typename T>
 auto of_closest(T ClosestApproach::*what) {
   return [what](const SceneClosest& closest) { return closest.found().*what; };
@@ -259,11 +259,11 @@ void bind_contact_of_scene(py::module_& m) {
                                     "A contact in a scene: `normal_velocity` is in m/s.")
       .def_property_readonly(
           "bodies", [](const SceneContact& c) { return py::make_tuple(c.bodies[0], c.bodies[1]); },
-          "The names of the two bodies; of links \"robot/link\".")
+          "The names of the two bodies; those of links are \"robot/link\".")
       .def_property_readonly(
           "geometries",
           [](const SceneContact& c) { return py::make_tuple(c.geometries[0], c.geometries[1]); },
-          "Of each body the geometry that the features belong to: links may have several.")
+          "The geometry of each body that the features belong to: links may have several.")
       .def(py::pickle(
           [](const SceneContact& c) {
             return py::make_tuple(static_cast<const Contact&>(c), c.bodies);
@@ -279,18 +279,18 @@ void bind_closest(py::module_& m) {
       .def_property_readonly(
           "pair", [](const SceneClosest& c) { return name_tuple(c.pair); },
           "The names of the two bodies.")
-      .def_property_readonly("distance", of_closest(&ClosestApproach::distance),
-                             "[m] Attained at t; an upper bound of the least distance over the "
-                             "step.")
+      .def_property_readonly(
+          "distance", of_closest(&ClosestApproach::distance),
+          "[m] Distance at t; an upper bound of the least distance over the step.")
       .def_property_readonly("lower_bound", of_closest(&ClosestApproach::lower_bound),
-                             "[m] Proven for the whole step.")
+                             "[m] Lower bound of the distance, proven for the whole step.")
       .def_property_readonly("t", of_closest(&ClosestApproach::t),
                              "[-] A time where `distance` is attained.")
       .def_property_readonly(
           "time", [](const SceneClosest& c) { return c.found().t * duration(*c.pair.result); },
           "[s]")
       .def_property_readonly("reason", of_closest(&ClosestApproach::reason),
-                             "Not `none`: the budget ended the search.")
+                             "Not `none` where the budget ended the search.")
       .def_property_readonly(
           "points",
           [](const SceneClosest& c) {
@@ -311,26 +311,28 @@ void bind_pair(py::module_& m) {
   py::class_<ScenePair>(m, "ScenePair", "The answer of one pair of bodies in a scene.")
       .def_property_readonly(
           "pair", [](const ScenePair& p) { return name_tuple(p); },
-          "The names of the two bodies; of links \"robot/link\".")
+          "The names of the two bodies; those of links are \"robot/link\".")
       .def_property_readonly("margin", of_pair(&PairAnswer::margin),
-                             "[m] With paddings and the effect of tracking errors.")
+                             "[m] The margin, with paddings and the effect of tracking errors.")
       .def_property_readonly("verdict", of_pair(&PairAnswer::verdict))
       .def_property_readonly("reason", of_pair(&PairAnswer::reason))
-      .def_property_readonly("t", of_pair(&PairAnswer::t),
-                             "[-] Before it the pair is farther apart than its margin: proven.")
+      .def_property_readonly(
+          "t", of_pair(&PairAnswer::t),
+          "[-] Time before which the pair is proven farther apart than its margin.")
       .def_property_readonly("t_upper", of_pair(&PairAnswer::t_upper),
                              "[-] A time that is proven to be in contact, if one is known.")
       .def_property_readonly(
           "time", [](const ScenePair& p) { return p.answer().t * duration(*p.result); },
           "[s] t times the duration.")
-      .def_property_readonly("contacts", &contacts_of_pair, "At t; those that were asked for.")
+      .def_property_readonly("contacts", &contacts_of_pair,
+                             "The contacts at t that were asked for.")
       .def_property_readonly(
           "contact_count", [](const ScenePair& p) { return p.answer().contact_count.at_least; },
-          "How many there are, those included that are not listed.")
+          "Number of contacts at t, those included that are not listed.")
       .def_property_readonly(
           "contact_count_is_exact",
           [](const ScenePair& p) { return p.answer().contact_count.is_exact; },
-          "Not where only the first was asked for, or counting ended early: then there may be "
+          "False where only the first was asked for, or counting ended early: then there may be "
           "more.")
       .def_property_readonly("clearance", of_pair(&PairAnswer::clearance),
                              "[m] Proven lower bound of the distance before t.")
@@ -340,9 +342,9 @@ void bind_pair(py::module_& m) {
           [](const ScenePair& p) {
             return p.answer().closest ? py::cast(SceneClosest{p}) : py::object(py::none());
           },
-          "Its closest approach; None where that was not asked.")
+          "Its closest approach; None where that was not asked for.")
       .def_property_readonly("intervals", &intervals_of,
-                             "ContactIntervals, in order; where all_contacts_in_time was asked.")
+                             "ContactIntervals in order, where all_contacts_in_time was asked for.")
       .def("__repr__",
            [](const ScenePair& p) {
              const auto names = pair_names(*p.result, p.answer());
@@ -364,10 +366,11 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
   type.def_property_readonly("id", [](const HeldResult& r) { return r.scene->scene().id; })
       .def_property_readonly("verdict", [](const HeldResult& r) { return r.answer.verdict; })
       .def_property_readonly(
-          "reason", [](const HeldResult& r) { return r.answer.reason; }, "Why it is undecided.")
+          "reason", [](const HeldResult& r) { return r.answer.reason; },
+          "The reason of `undecided`.")
       .def_property_readonly(
           "t", [](const HeldResult& r) { return r.answer.t; },
-          "[-] No pair is in contact before it: proven. 1 when free.")
+          "[-] Time before which no pair is in contact, proven; 1 when free.")
       .def_property_readonly(
           "t_upper", [](const HeldResult& r) { return r.answer.t_upper; },
           "[-] A time that is proven to be in contact, if one is known.")
@@ -376,16 +379,17 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "[s] t times the duration.")
       .def_property_readonly(
           "pair", [](const std::shared_ptr<HeldResult>& r) { return names_of_first(r); },
-          "The names of the bodies that decide t; None when free.")
-      .def_property_readonly("contacts", &contacts_of,
-                             "At t, of every pair that touches there; those that were asked for.")
+          "The names of the bodies that determine t; None when free.")
+      .def_property_readonly(
+          "contacts", &contacts_of,
+          "The contacts at t of every pair that touches there; those that were asked for.")
       .def_property_readonly(
           "contact_count", [](const HeldResult& r) { return contact_count_of(r).at_least; },
-          "How many there are, those included that are not listed.")
+          "Number of contacts at t, those included that are not listed.")
       .def_property_readonly(
           "contact_count_is_exact",
           [](const HeldResult& r) { return contact_count_of(r).is_exact; },
-          "Not where only the first was asked for, or counting ended early: then there may be "
+          "False where only the first was asked for, or counting ended early: then there may be "
           "more.")
       .def_property_readonly(
           "clearance", [](const HeldResult& r) { return r.answer.clearance; },
@@ -393,39 +397,40 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "where no pair is tested.")
       .def_property_readonly(
           "closest", [](const std::shared_ptr<HeldResult>& r) { return closest_of(r); },
-          "The pair that comes closest; None where that was not asked.")
+          "The pair that comes closest; None where that was not asked for.")
       .def_property_readonly(
           "pairs", [](const std::shared_ptr<HeldResult>& r) { return pairs_of(r); },
-          "Every tested pair where that was asked, else those that decide t.")
+          "Every tested pair where that was asked for, else those that determine t.")
       .def_property_readonly("turns", &turns_of,
-                             "JointTurns: which way continuous joints went, and how far.")
+                             "JointTurns: the way of continuous joints, and its length.")
       .def_property_readonly("limits", &limits_of,
                              "LimitViolations: the joint limits that robots leave.")
       .def_property_readonly(
           "warnings",
           [](const HeldResult& r) { return check_warnings(loaded_without_gil(*r.scene)); },
-          "What a user should know: what readers warn of, sizes that look wrong, bodies that begin "
-          "inside of others, limits that robots leave, that no pair is tested.")
+          "Warnings: those of readers, sizes that look wrong, bodies that begin inside of others, "
+          "limits that robots leave, and that no pair is tested.")
       .def_property_readonly(
           "pair_counts",
           [](const HeldResult& r) {
             return pair_counts_tuple(loaded_without_gil(*r.scene).pair_counts);
           },
-          "PairCounts: which pairs the answer is about.")
+          "PairCounts: the pairs that the answer is about.")
       .def_property_readonly(
           "files",
           [](const HeldResult& r) { return files_tuple(loaded_without_gil(*r.scene).files); },
-          "FileReports: what became of every file that was read.")
+          "FileReports: the reports on all files that were read.")
       .def_property_readonly(
           "tolerance_used", [](const HeldResult& r) { return r.answer.tolerance_used; },
           "[m] The greatest of the pairs that were searched.")
       .def_property_readonly(
           "enclosure_error", [](const HeldResult& r) { return r.answer.enclosure_error; },
-          "[m] Of curved shapes that are asked by their triangles: adds to the tolerance.")
+          "[m] Errors of curved shapes that are tested by their triangles: they add to the "
+          "tolerance.")
       .def_property_readonly("work", [](const HeldResult& r) { return r.answer.work; })
       .def_property_readonly("scene", [](const HeldResult& r) { return r.scene; })
       .def("to_json", &to_json, "The result as `firstcontact check --json` writes it, on one line.")
-      .def("to_dict", &to_dict, "The same as a dict.")
+      .def("to_dict", &to_dict, "The result as a dict.")
       .def("__repr__", [](const HeldResult& r) { return describe(r); })
       .def(py::pickle([](const HeldResult& r) { return state_of(r); },
                       [](const py::tuple& state) { return result_from(state); }));

@@ -29,7 +29,7 @@ struct GapLines {
   std::vector<GapPoint> lower_bound;
 };
 
-/// Without the GIL.
+/// Samples the gap; runs without the GIL.
 GapLines gap_lines(const HeldResult& result, const std::stop_token& stop) {
   const LoadedScene& loaded = result.scene->loaded();
   GapLines lines;
@@ -61,7 +61,7 @@ py::object gap_curve_of(const HeldResult& result) {
       tuple_type("GapPoints")(owning(std::move(corner_t)), owning(std::move(corner_distance))));
 }
 
-/// As the tool's --html.
+/// Makes the page as the tool's --html does.
 std::string fill_page(const HeldResult& result, const std::string& page_template) {
   return run_query(nullptr, [&](const QueryStop& stop) {
     const LoadedScene& loaded = result.scene->loaded();
@@ -73,7 +73,7 @@ std::string fill_page(const HeldResult& result, const std::string& page_template
   });
 }
 
-/// A method that firstcontact/_page.py has.
+/// Defines a method with the body in firstcontact/_page.py.
 template <typename... Arguments>
 py::object page_function(const char* name, const Arguments&... arguments) {
   return py::module_::import("firstcontact._page").attr(name)(arguments...);
@@ -84,22 +84,24 @@ py::object page_function(const char* name, const Arguments&... arguments) {
 void bind_result_page(ResultClass& type) {
   type.def(
           "to_html", [](const py::object& self) { return page_function("to_html", self); },
-          R"(The page that plays this result: one file that needs nothing else.
+          R"(Makes the page that plays this result: one file that needs nothing else.
 
-As `firstcontact check --html` makes it. FileNotFoundError where the package was built without it.)")
+It is that of `firstcontact check --html`. FileNotFoundError where the package was built without
+it.)")
       .def(
           "save_html",
           [](const py::object& self, const py::object& path) {
             page_function("save_html", self, path);
           },
-          py::arg("path"), "Writes to_html() to a file.")
+          py::arg("path"), "Writes the page of to_html() to a file.")
       .def("_fill_page", &fill_page, py::arg("template"))
       .def("_repr_html_",
            [](const py::object& self) { return page_function("notebook_view", self); })
-      .def("gap_curve", &gap_curve_of, R"(The gap over time, for plots: (GapSamples, GapPoints).
+      .def("gap_curve", &gap_curve_of,
+           R"(Samples the gap over time, for plots: (GapSamples, GapPoints).
 
 Samples lie where the gap bends; they prove nothing between them. The points are corners of a
-polyline that the gap is proven not to be below, at any time.)");
+polyline that is a proven lower bound of the gap at all times.)");
 }
 
 }  // namespace firstcontact::python

@@ -36,7 +36,7 @@ namespace {
 
 using Texts = std::array<std::string, kTrajectoryEndings.size()>;  // Of each TrajectoryFormat.
 
-/// What is to be retimed: a scene, or else the text or the file of a path or of a scene.
+/// The input of retiming: a scene, or else the text or the file of a path or of a scene.
 struct RetimingSource {
   const HeldScene* scene = nullptr;
   std::optional<std::string> text;
@@ -45,7 +45,7 @@ struct RetimingSource {
   bool lenient = false;
 };
 
-/// How it is to be retimed.
+/// The options of retiming.
 struct RetimingWish {
   std::optional<std::string> limits_text;  // As a file of limits has it.
   std::optional<std::filesystem::path> limits_file;
@@ -55,7 +55,7 @@ struct RetimingWish {
   RetimingOptions options;
 };
 
-/// A path, its scene, and what came of it.
+/// A path, its scene, and its retimed motion.
 struct Retiming {
   RetimingPath input;
   std::optional<LoadedRetimingScene> scene;
@@ -185,7 +185,7 @@ py::tuple rates_of(const Retiming& retiming) {
   return py::tuple(list);
 }
 
-/// Of a motion that is proven: what its contact pairs kept.
+/// The distances that the contact pairs of a proven motion kept.
 py::tuple held_pairs_of(const Retiming& retiming) {
   py::list list;
   for (const ProvenHold& hold : retiming.proof.held) {

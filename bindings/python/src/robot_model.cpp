@@ -153,7 +153,7 @@ path path_of(const py::object& value, const std::string& name, const std::string
 void bind_robot_model(py::module_& m) {
   py::class_<HeldRobotModel>(m, "RobotModel", R"(A robot, read from URDF: a tree of links.
 
-Its meshes are read when a question needs them. Pickled, it holds its path, and is read again.)")
+Its meshes are read when a question needs them. A pickled model holds its path, to be read again.)")
       .def_property_readonly("name", [](const HeldRobotModel& r) { return r.model.name(); })
       .def_property_readonly(
           "path", [](const HeldRobotModel& r) { return r.file.urdf.string(); }, "Of its file.")
@@ -163,10 +163,10 @@ Its meshes are read when a question needs them. Pickled, it holds its path, and 
           "joints", [](const HeldRobotModel& r) { return joints_of(r.model); }, "Joints.")
       .def_property_readonly(
           "root", [](const HeldRobotModel& r) { return r.model.links()[r.model.root()].name; },
-          "The link that hangs on no joint.")
+          "The link that no joint carries.")
       .def_property_readonly(
           "coordinates", [](const HeldRobotModel& r) { return coordinates_of(r.model); },
-          "What trajectories call the coordinates that move by themselves: a joint's name; of a "
+          "Names in trajectories of the coordinates that move by themselves: a joint's name; for a "
           "planar joint NAME/x, NAME/y, NAME/theta.")
       .def("__repr__",
            [](const HeldRobotModel& r) {
@@ -188,10 +188,11 @@ Its meshes are read when a question needs them. Pickled, it holds its path, and 
         py::arg("visual") = false, py::arg("visual_where_missing") = false, R"(Reads a robot.
 
 package_roots: folders that hold packages, for `package://`; those above the file are searched
-anyway. visual: takes links as they look, not their collision geometry. visual_where_missing: takes
-links without collision geometry as they look. ParseError where the file cannot be used.)");
+anyway. visual: uses the visual geometry of links, not their collision geometry.
+visual_where_missing: uses it for links without collision geometry. ParseError where the file cannot
+be used.)");
   m.def("read_srdf", &read_semantics, py::arg("path"), py::arg("robot"),
-        "Reads what a robot's maker says about it: pairs not to test, groups, named states.");
+        "Reads an SRDF: the pairs not to test, groups and named states of a robot.");
 }
 
 }  // namespace firstcontact::python

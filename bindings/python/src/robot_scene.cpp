@@ -69,7 +69,7 @@ std::string digest_after(const std::string& before, const py::object& said) {
   return sha256(py::bytes(before + std::string(py::repr(said))));
 }
 
-/// By what it holds, and quickly.
+/// Compares scenes by their contents, with little work.
 py::object contents_of(const Shape& shape) {
   const auto bytes = [](const auto& rows) {
     return py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(rows[0]));
@@ -118,7 +118,7 @@ std::map<std::string, double> by_name(const py::handle value, const char* name) 
   return argument<std::map<std::string, double>>(value, name, "a dict of numbers by name");
 }
 
-/// One number for all links, or numbers by their names.
+/// Reads one number for all links, or numbers by their names.
 void set_padding(HeldRobotScene& scene, const py::object& value) {
   std::map<std::size_t, double>& padding = scene.robot().padding;
   if (py::isinstance<py::dict>(value)) {
@@ -148,7 +148,7 @@ std::size_t moving_joint(const RobotModel& model, const std::string& name) {
   return *found;
 }
 
-/// One number for all joints, or numbers by their names.
+/// Reads one number for all joints, or numbers by their names.
 void set_tracking_error(HeldRobotScene& scene, const py::object& value) {
   SceneRobot& robot = scene.robot();
   if (py::isinstance<py::dict>(value)) {
@@ -416,12 +416,12 @@ void attach_body(HeldRobotScene& s, const std::string& body, const std::string& 
 
 void bind_robot_scene(py::module_& m) {
   RobotSceneClass type(m, "RobotScene",
-                       R"(A robot and its surroundings, to be asked about trajectories.
+                       R"(A robot and its environment, to be checked along trajectories.
 
-The tool's `firstcontact check --robot`, from Python. Meshes are read, and hierarchies built, once
-for all trajectories. Bodies and rules may be added between questions, not from several threads at
-once; what along() returned does not change with them. For several robots, or a base that moves,
-write a scene (check, load_scene).)");
+It is the tool's `firstcontact check --robot`, from Python. Meshes are read, and hierarchies built,
+once for all trajectories. Bodies and rules may be added between questions, not from several threads
+at once. Results of along() do not change with them. For several robots, or a base that moves, write
+a scene (check, load_scene).)");
   type.def(py::init(&make_scene), py::arg("robot"), py::arg("srdf") = py::none(),
            py::arg("environment") = py::tuple(), py::kw_only(), py::arg("base") = Pose{},
            py::arg("state") = py::tuple(), py::arg("padding") = 0.0,
@@ -429,12 +429,12 @@ write a scene (check, load_scene).)");
            py::arg("shapes") = py::none(), py::arg("scale") = 1.0, py::arg("lenient") = false,
            R"(robot: a RobotModel, or the path of a URDF. srdf: a RobotSemantics, or its path.
 environment: paths of meshes, MoveIt planning scenes (.yaml) and scenes (.json) without robots.
-base: pose of the robot's root link. state: where joints rest that a trajectory does not name: a
+base: pose of the robot's root link. state: positions of joints that a trajectory does not name: a
 dict by joint, the name of a state of the SRDF, or a sequence of these. padding: [m] of every link,
 or a dict by link. tracking_error: [rad or m] of every joint, or a dict by joint; the answer then
-holds for every motion that stays so near. margin: [m] of every pair; that of surroundings or 0 by
-default. shapes: a ShapeCache to share meshes with other scenes. scale: [-] of the meshes among the
-environment; 0.001 reads millimetres. lenient: as of load_scene.)")
+holds for every motion within it. margin: [m] of every pair; that of the environment or 0 by
+default. shapes: a ShapeCache to share meshes with other scenes. scale: [-] of the meshes of the
+environment; 0.001 reads millimetres. lenient: as for load_scene.)")
       .def_property_readonly(
           "robot",
           [](const HeldRobotScene& s) {
@@ -457,28 +457,30 @@ environment; 0.001 reads millimetres. lenient: as of load_scene.)")
              const RecordedMotion& X_WB) { s.add(name, shape, X_WB); },
           py::arg("name"), py::arg("shape"),
           py::arg("X_WB") = RecordedMotion{Motion::fixed(), "fixed", py::make_tuple(Pose{})},
-          "Its motion takes the duration of the trajectory: t runs from 0 to 1 over it.")
+          "Adds a body. Its motion takes the duration of the trajectory: t runs from 0 to 1 over "
+          "it.")
       .def("attach", &attach_body, py::arg("body"), py::arg("link"), py::arg("from_time") = 0.0,
            py::arg("to_time") = py::none(), py::arg("touch_links") = py::tuple(),
            py::arg("pose") = py::none(),
            R"(Lets a link carry a body from one time to another [s], to the end by default.
 
-Meanwhile the body is not tested against the link and the touch_links; before, it moves by itself;
-after, it rests. pose: of the body in the link's frame, from the start on; by default it is held as it
-is at from_time.)")
+Meanwhile the body is not tested against the link and the touch_links. Before, it moves by itself;
+after, it rests. pose: of the body in the link's frame, from the start on; by default its pose there
+at from_time.)")
       .def("ignore", &HeldRobotScene::ignore, py::arg("name"), py::arg("other"),
-           "Does not test two bodies or links; the robot's name means all of its links.")
+           "Excludes two bodies or links from the tests; the robot's name means all of its links.")
       .def("set_margin", &HeldRobotScene::set_margin, py::arg("name"), py::arg("other"),
-           py::arg("margin"), "margin: [m] of two bodies or links, named as for ignore; >= 0.")
+           py::arg("margin"),
+           "Sets the margin [m] of two bodies or links, named as for ignore; >= 0.")
       .def("straight_motion", &straight, py::arg("start"), py::arg("goal"),
            py::arg("turning") = Turning::shortest,
-           R"(Straight in joint space, as fast as the velocity limits allow.
+           R"(Makes a trajectory straight in joint space, as fast as the velocity limits allow.
 
 start, goal: as `state` of the constructor; joints that the goal does not name keep their start.
 turning: the way of continuous joints and of the angles of planar ones, "short" as MoveIt goes, or
-"long" as the numbers say.)")
+"long" by the numbers.)")
       .def("along", &scene_along, py::arg("trajectory"),
-           R"(The Scene of this robot while it follows a trajectory, as for check_many.
+           R"(Makes the Scene of this robot on a trajectory, as for check_many.
 
 trajectory: a Trajectory, the path of one, or None where the robot rests.)")
       .def("__repr__",

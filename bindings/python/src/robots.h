@@ -27,21 +27,23 @@ struct HeldRobotModel {
   RobotModel model;
 };
 
-/// The file that an argument names: a path, or something that was read from one and has its path.
+/// The file that an argument names: a path, or an object that was read from one and has its path.
 ///
-/// @param name  of the argument
-/// @param what  it has to be: "a RobotModel, or the path of a URDF"
+/// @param name  name of the argument
+/// @param what  the expected kind: "a RobotModel, or the path of a URDF"
 /// @throws pybind11::type_error
 std::filesystem::path path_of(const pybind11::object& value, const std::string& name,
                               const std::string& what);
 
-/// Positions by the names of coordinates: a mapping, the name of a state of the SRDF, or a sequence
-/// of both, of which the later ones prevail.
+/// Reads positions by the names of coordinates.
+///
+/// They are a mapping, the name of a state of the SRDF, or a sequence of both, of which later ones
+/// prevail.
 ///
 /// @throws pybind11::type_error, std::invalid_argument
 JointPositions positions_from(const pybind11::object& value, const SceneRobot& robot);
 
-/// One robot and its surroundings: all of a scene but the trajectory.
+/// One robot and its environment: all of a scene except the trajectory.
 class HeldRobotScene {
  public:
   /// @param scene  with one robot, which rests
@@ -57,7 +59,7 @@ class HeldRobotScene {
   /// A link of the robot, by its number.
   [[nodiscard]] std::size_t link(const std::string& name) const;
 
-  /// A motion that takes the duration of the trajectory, whatever that is.
+  /// A motion that takes the duration of any trajectory.
   void add(const std::string& name, const Shape& shape, const RecordedMotion& X_WB);
 
   void attach(SceneAttachment attachment);
@@ -72,7 +74,7 @@ class HeldRobotScene {
   static HeldRobotScene from_state(const pybind11::tuple& state);
 
  private:
-  /// What is in memory counts for the digest of the input as files do.
+  /// Adds data in memory to the digest of the input, as files count.
   void note(const pybind11::object& said);
 
   Scene scene_;
@@ -87,7 +89,7 @@ using RobotSceneClass = pybind11::class_<HeldRobotScene, std::shared_ptr<HeldRob
 std::shared_ptr<HeldScene> scene_along(const HeldRobotScene& scene,
                                        const pybind11::object& trajectory);
 
-/// Its method `check`, which asks as firstcontact.check does.
+/// Defines its method `check`, which asks as firstcontact.check does.
 void bind_check_along(RobotSceneClass& type);
 
 }  // namespace firstcontact::python

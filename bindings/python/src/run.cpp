@@ -44,14 +44,14 @@ std::string without_line_feed(std::string line) {
 
 namespace {
 
-/// n×columns.
+/// Makes an n×columns array.
 template <typename Number>
 py::array table(const std::vector<Number>& numbers, py::ssize_t columns) {
   return py::array_t<Number>({static_cast<py::ssize_t>(numbers.size()) / columns, columns},
                              numbers.data());
 }
 
-/// A row of each.
+/// Makes an array with a row for each.
 template <typename T>
 py::array rows(const std::vector<T>& all, Vector3d T::*what) {
   std::vector<Vector3d> found;
@@ -161,7 +161,7 @@ py::object contacts(const RunStep& step) {
                            rows(step.contacts, &RunContact::impulse), py::tuple(features));
 }
 
-/// A row of numbers of each robot.
+/// A row of numbers for each robot.
 py::tuple robot_rows(const RunStep& step, std::vector<double> RunRobot::*what) {
   py::list found;
   for (const RunRobot& robot : step.robots) {
@@ -177,14 +177,17 @@ std::string describe_step(const RunStep& step) {
 }
 
 void bind_step(py::module_& m) {
-  py::class_<RunStep>(m, "RunStep", R"(What happened in one step of a simulation; never changes.
+  py::class_<RunStep>(m, "RunStep", R"(One step of a simulation; never changes.
 
-Energies and momenta are those of the free bodies and robots at its end. Arrays are new ones at each look; the
-rows of positions, quaternions_wxyz, linear_velocities and angular_velocities are those of bodies.)")
+Energies and momenta are those of the free bodies and robots at its end. Each access makes new
+arrays. The rows of positions, quaternions_wxyz, linear_velocities and angular_velocities are those
+of bodies.)")
       .def_readonly("index", &RunStep::index, "From 1.")
-      .def_readonly("time", &RunStep::time, "[s] Simulated until its end.")
-      .def_readonly("lasted", &RunStep::lasted, "[s] The step asked for, but for what is lost.")
-      .def_readonly("time_lost", &RunStep::time_lost, "[s] In this step, its events spent.")
+      .def_readonly("time", &RunStep::time, "[s] Simulated time at its end.")
+      .def_readonly("lasted", &RunStep::lasted,
+                    "[s] The step's length, less the time that is lost.")
+      .def_readonly("time_lost", &RunStep::time_lost,
+                    "[s] Time lost in this step, as its events were spent.")
       .def_readonly("clearance", &RunStep::clearance,
                     "[m] Proven: no pair came closer at any time of the step; infinite where there "
                     "is no pair.")
@@ -198,51 +201,53 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
           "angular_momentum", [](const RunStep& s) { return copied(s.angular_momentum); },
           "[kg m²/s] (3,), about the world's origin.")
       .def_readonly("residual", &RunStep::residual,
-                    "[m/s] The greatest of the step's contact problems.")
+                    "[m/s] The greatest residual of the step's contact problems.")
       .def_readonly("events", &RunStep::events,
-                    "Times within the step at which contacts were projected.")
+                    "Number of times within the step at which contacts were projected.")
       .def_property_readonly("bodies", &numbers_of_bodies,
                              "(k,) Numbers of the bodies that move; all others rest.")
       .def_property_readonly("positions", &positions,
-                             "[m] k×3, of the body frames' origins in the world.")
-      .def_property_readonly("quaternions_wxyz", &quaternions, "[-] k×4, of the body frames.")
+                             "[m] k×3, positions of the body frames' origins in the world.")
+      .def_property_readonly("quaternions_wxyz", &quaternions,
+                             "[-] k×4, quaternions of the body frames.")
       .def_property_readonly(
           "linear_velocities",
           [](const RunStep& s) { return rows(s.bodies, &RunBody::linear_velocity); },
-          "[m/s] k×3, of the centres of mass, world axes.")
+          "[m/s] k×3, velocities of the centres of mass, world axes.")
       .def_property_readonly(
           "angular_velocities",
           [](const RunStep& s) { return rows(s.bodies, &RunBody::angular_velocity); },
-          "[rad/s] k×3, world axes.")
-      .def_property_readonly("rest", &which_rest,
-                             "(k,) bool: contacts hold the body where it is, until something "
-                             "disturbs them.")
+          "[rad/s] k×3, angular velocities, world axes.")
+      .def_property_readonly(
+          "rest", &which_rest,
+          "(k,) bool: whether contacts hold the body in place until something disturbs them.")
       .def_property_readonly("behind", &behind,
-                             "[s] (k,): by so much the script of a body is, as it waited where it "
-                             "would have crushed what was in its way.")
+                             "[s] (k,): the time by which the script of a body is behind, as it "
+                             "waited where it would have crushed an obstacle.")
       .def_property_readonly(
           "robot_positions", [](const RunStep& s) { return robot_rows(s, &RunRobot::positions); },
           "[rad or m] A row for each robot with dynamics, as `Simulator.robot_positions`.")
       .def_property_readonly(
           "robot_velocities", [](const RunStep& s) { return robot_rows(s, &RunRobot::velocities); },
-          "[rad/s or m/s] Likewise, as `Simulator.robot_velocities`.")
+          "[rad/s or m/s] A row for each robot with dynamics, as `Simulator.robot_velocities`.")
       .def_property_readonly(
           "robot_efforts", [](const RunStep& s) { return robot_rows(s, &RunRobot::efforts); },
-          "[N m or N] Of the motors along each of the robots' velocities, the mean over the step; "
-          "0 where there is none.")
-      .def_property_readonly("contacts", &contacts, "What acted at the end, as RunContacts.")
+          "[N m or N] Efforts of the motors along each of the robots' velocities: the mean over "
+          "the step; 0 without a motor.")
+      .def_property_readonly("contacts", &contacts,
+                             "Contacts that acted at the end, as RunContacts.")
       .def_property_readonly("ties", &ties, "The forces of springs, cables and joints, as RunTies.")
       .def_property_readonly("impacts", &impacts,
-                             "What impacts within the step did, as RunImpacts.")
+                             "Effects of impacts within the step, as RunImpacts.")
       .def("pieces", &pieces, py::arg("body"),
-           R"(How a body got through the step: p×14, one piece a row, none where it rests.
+           R"(Returns the motion of a body in the step: p×14, one piece a row, none where it rests.
 
-Columns: [s] until when since the step began; [m, -] position (3) and quaternion_wxyz (4) of the
-body frame where the piece begins; [m] translation (3) of the centre of mass and [rad] rotation
+Columns: [s] end of the piece since the step began; [m, -] position (3) and quaternion_wxyz (4) of
+the body frame where the piece begins; [m] translation (3) of the centre of mass and [rad] rotation
 vector (3) about it, both at a constant rate.)")
       .def(
           "to_json", [](const RunStep& s) { return without_line_feed(write_run_step(s)); },
-          "Its line in the file of a run, without the line feed.")
+          "The step's line in the file of a run, without the line feed.")
       .def("__repr__", &describe_step);
 }
 
@@ -271,20 +276,20 @@ RunStep next_of(HeldRun& run) {
 void bind_reader(py::module_& m) {
   py::class_<HeldRun>(m, "RunReader", R"(Reads a run back: iterate over it for its steps, once.
 
-Holds one step at a time. Numbers are those that were written, bit for bit. ParseError, one line
+It holds one step at a time. Numbers are those that were written, bit for bit. ParseError, one line
 that names file and line, where the file is no run.)")
       .def(py::init<const std::filesystem::path&>(), py::arg("path"))
       .def_property_readonly(
           "names", [](const HeldRun& r) { return names_of(r.reader().header()); },
-          "Of the bodies, in order.")
+          "Names of the bodies, in order.")
       .def_property_readonly(
           "masses",
           [](const HeldRun& r) { return owning(std::vector(r.reader().header().masses)); },
-          "[kg] (n,), 0 of bodies that are not free; links of robots with dynamics have theirs.")
+          "[kg] (n,), 0 for bodies that are not free; links of robots with dynamics have theirs.")
       .def_property_readonly(
           "centres_of_mass",
           [](const HeldRun& r) { return owning(std::vector(r.reader().header().centres_of_mass)); },
-          "[m] n×3, body frames.")
+          "[m] n×3, centres of mass in body frames.")
       .def_property_readonly(
           "scene",
           [](const HeldRun& r) { return std::make_shared<HeldScene>(r.reader().header().scene); },
@@ -292,11 +297,11 @@ that names file and line, where the file is no run.)")
       .def_property_readonly(
           "header_json",
           [](const HeldRun& r) { return without_line_feed(write_run_header(r.reader().header())); },
-          "The first line, without the line feed.")
+          "The first line of the file, without the line feed.")
       .def_property_readonly(
           "is_cut_off", [](const HeldRun& r) { return r.reader().is_cut_off(); },
-          "Whether the file ends in the middle of a line, as a killed simulation leaves it. Known "
-          "at the end of the iteration.")
+          "Whether the file ends in the middle of a line, as a killed simulation leaves it. It is "
+          "known at the end of the iteration.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &next_of);
 }
@@ -307,7 +312,7 @@ RunHeader header_from(const std::string& header_json) {
   return RunReader(stream, "header").header();
 }
 
-/// Names, positions and quaternions of all bodies where the run begins.
+/// Names, positions and quaternions of all bodies at the begin of the run.
 py::tuple start_of_run(const std::string& header_json) {
   const RunHeader header = header_from(header_json);
   std::vector<Vector3d> positions;

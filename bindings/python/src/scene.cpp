@@ -102,7 +102,7 @@ py::tuple all_names(const std::vector<Named>& all) {
   return py::tuple(names);
 }
 
-/// Units that look wrong among them.
+/// The warnings of a scene; units that look wrong are among them.
 std::string warnings_text(const HeldScene& scene) {
   const std::vector<std::string>& warnings = loaded_without_gil(scene).warnings;
   std::string text;
@@ -125,39 +125,39 @@ std::string describe_scene(const HeldScene& scene) {
 void bind_scenes(py::module_& m) {
   py::class_<ShapeCache, SharedCache>(
       m, "ShapeCache",
-      R"(Shapes of scenes, kept from scene to scene; a file that changes is not read again.
+      R"(Cache of shapes, kept from scene to scene; a file that changes is not read again.
 
 Give one to load_scene for scenes that share meshes. Any number of threads may use it.)")
       .def(py::init<>());
   py::class_<HeldScene, std::shared_ptr<HeldScene>>(
-      m, "Scene", R"(A scene, read and made ready for questions; never changes.
+      m, "Scene", R"(A scene, read and ready for questions; never changes.
 
-Made by load_scene and parse_scene. A pickled scene holds the paths of its mesh files, relative to
-the working directory where they were so, and reads them again when they are needed.)")
+load_scene and parse_scene make it. A pickled scene holds the paths of its mesh files, relative to
+the working directory where they were so. It reads the files again when they are needed.)")
       .def_property_readonly("id", [](const HeldScene& s) { return s.scene().id; })
       .def_property_readonly(
           "duration", [](const HeldScene& s) { return s.scene().duration; },
-          "[s] Of the step; t = 1 there.")
+          "[s] Duration of the step; t = 1 there.")
       .def_property_readonly(
           "bodies", [](const HeldScene& s) { return all_names(s.scene().bodies); },
-          "Their names, in order.")
+          "Names of the bodies, in order.")
       .def_property_readonly(
           "robots", [](const HeldScene& s) { return all_names(s.scene().robots); },
-          "Their names, in order.")
+          "Names of the robots, in order.")
       .def_property_readonly(
           "input_digest", [](const HeldScene& s) { return loaded_without_gil(s).input_digest; },
-          "SHA-256 over everything that was read.")
+          "SHA-256 over all inputs.")
       .def_property_readonly(
           "files", [](const HeldScene& s) { return files_tuple(loaded_without_gil(s).files); },
-          "FileReports: what became of every file that was read.")
+          "FileReports: the reports on all files that were read.")
       .def_property_readonly(
           "warnings", [](const HeldScene& s) { return loaded_without_gil(s).warnings; },
-          "What reading warns of: unknown names, sizes that look wrong, bodies that "
-          "begin inside of others.")
+          "Warnings of reading: unknown names, sizes that look wrong, bodies that begin inside of "
+          "others.")
       .def_property_readonly(
           "pair_counts",
           [](const HeldScene& s) { return pair_counts_tuple(loaded_without_gil(s).pair_counts); },
-          "PairCounts: which pairs a check looks at.")
+          "PairCounts: the pairs that a check tests.")
       .def(
           "to_json", [](const HeldScene& s) { return write_scene(s.scene()); },
           "The resolved scene: poses as position and quaternion, every default written out.")
@@ -166,7 +166,7 @@ the working directory where they were so, and reads them again when they are nee
           [](const HeldScene& s) {
             return py::module_::import("json").attr("loads")(write_scene(s.scene()));
           },
-          "The same as a dict.")
+          "The resolved scene as a dict.")
       .def("__repr__", &describe_scene)
       .def(py::pickle(
           [](const HeldScene& s) {
@@ -192,8 +192,8 @@ shapes: a ShapeCache to share meshes with other scenes. lenient, and errors: as 
         py::arg("shapes") = py::none(), py::arg("lenient") = false,
         R"(Reads a scene from text, one JSON object, and its meshes.
 
-source: the file that the text is from: named in errors, and its folder is where relative paths
-begin. shapes: a ShapeCache to share meshes with other scenes. lenient, ParseError: as load_scene.)");
+source: the file of the text: named in errors; relative paths begin in its folder. shapes: a
+ShapeCache to share meshes with other scenes. lenient, ParseError: as load_scene.)");
 }
 
 py::object sample(const HeldScene& scene, const py::object& times, OrNone<std::stop_source> stop) {
@@ -225,7 +225,7 @@ void bind_scene(py::module_& m) {
   bind_scenes(m);
   m.def("sample_gap", &sample, py::arg("scene"), py::arg("times"), py::kw_only(),
         py::arg("stop") = py::none(),
-        R"(The least distance of all pairs of a Scene at chosen times, sorted; by all cores.
+        R"(Samples the least distance of all pairs of a Scene at chosen times, sorted; on all cores.
 
 times: [-] (n,), in [0, 1]. Proves nothing about the times between them.)");
 }

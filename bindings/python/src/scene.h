@@ -19,7 +19,7 @@
 
 namespace firstcontact::python {
 
-/// What is asked in place of what a scene says.
+/// The options of a question, in place of the scene's.
 struct OtherOptions {
   std::optional<double> margin;     ///< [m]
   std::optional<double> tolerance;  ///< [m]
@@ -30,7 +30,7 @@ struct OtherOptions {
 };
 
 /// A scene that loads its meshes when they are needed, so that a scene from another process is
-/// light.
+/// small.
 class HeldScene {
  public:
   explicit HeldScene(Scene scene,
@@ -38,13 +38,14 @@ class HeldScene {
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
 
-  /// Without the GIL, as other threads may be loading. Throws as load_scene.
+  /// Loads the scene. Runs without the GIL, as other threads may be loading. Throws as
+  /// load_scene().
   [[nodiscard]] const LoadedScene& loaded() const;
 
   /// Another scene that shares the meshes of files with this one.
   [[nodiscard]] std::shared_ptr<HeldScene> sharing(Scene scene) const;
 
-  /// The same with other options; shares the meshes of files.
+  /// The scene with other options; shares the meshes of files.
   ///
   /// @throws std::invalid_argument on a deadline outside its range
   [[nodiscard]] std::shared_ptr<HeldScene> with(const OtherOptions& options) const;
@@ -56,7 +57,7 @@ class HeldScene {
   mutable std::optional<LoadedScene> loaded_;
 };
 
-/// The answer of a scene and what its page needs.
+/// The answer of a scene, and the data that its page needs.
 struct HeldResult {
   std::shared_ptr<HeldScene> scene;
   SceneResult answer;
@@ -64,10 +65,10 @@ struct HeldResult {
   std::optional<SamplingReport> sampling = {};
 };
 
-/// HeldScene::loaded() for a thread that holds the GIL.
+/// Calls HeldScene::loaded() for a thread that holds the GIL.
 const LoadedScene& loaded_without_gil(const HeldScene& scene);
 
-/// A LimitViolation of firstcontact/_tuples.py.
+/// Makes a LimitViolation of firstcontact/_tuples.py.
 ///
 /// @param duration  [s]  of the motion that leaves the limit
 pybind11::object limit_tuple(const SceneRobot& robot, const LimitViolation& violation,
@@ -75,7 +76,7 @@ pybind11::object limit_tuple(const SceneRobot& robot, const LimitViolation& viol
 
 using ResultClass = pybind11::class_<HeldResult, std::shared_ptr<HeldResult>>;
 
-/// Adds what draws a result: its page and the curve of its gap.
+/// Adds the methods that draw a result: its page and the curve of its gap.
 void bind_result_page(ResultClass& type);
 
 }  // namespace firstcontact::python

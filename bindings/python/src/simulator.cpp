@@ -33,11 +33,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A simulator that one thread at a time may use. Looked at with the GIL.
+/// A simulator that one thread at a time may use. Its fields are read with the GIL.
 class HeldSimulator {
  public:
   explicit HeldSimulator(const LoadedScene& loaded) : simulator_(loaded) {}
 
+  /// Marks the simulator as busy.
+  ///
   /// @throws std::runtime_error while another thread has it busy
   Simulator& idle() {
     if (is_busy_) {
@@ -46,7 +48,7 @@ class HeldSimulator {
     return simulator_;
   }
 
-  /// Calls without the GIL.
+  /// Makes a call without the GIL.
   template <typename Action>
   auto call(const Action& action) {
     Simulator& simulator = idle();
@@ -72,6 +74,8 @@ class HeldSimulator {
   bool is_busy_ = false;
 };
 
+/// Requires a positive number.
+///
 /// @throws std::invalid_argument unless > 0 and finite
 void require_positive(const char* name, std::optional<double> seconds) {
   if (seconds && !(*seconds > 0.0 && std::isfinite(*seconds))) {
@@ -107,7 +111,7 @@ const Simulation& simulation_of(HeldSimulator& held) {
   return *held.idle().header().scene.simulation;
 }
 
-/// A row of each body.
+/// A row for each body.
 py::array rows(HeldSimulator& held, Vector3d RigidState::*what) {
   std::vector<Vector3d> found;
   for (const RigidState& state : held.idle().states()) {
@@ -139,7 +143,7 @@ py::array quaternions(HeldSimulator& held) {
   return wxyz;
 }
 
-/// The number of a body that is given by its number or its name.
+/// The number of a body from its number or its name.
 std::size_t body_from(const Simulator& simulator, const py::object& body) {
   const std::vector<std::string> bodies = names_with_links(simulator.header().scene);
   if (py::isinstance<py::str>(body)) {
@@ -183,7 +187,7 @@ void set_state(HeldSimulator& held, const py::object& body, const py::object& po
   held.call([&](Simulator& simulator) { simulator.set_state(number, state); });
 }
 
-/// A row of numbers of each robot.
+/// A row of numbers for each robot.
 py::tuple robot_rows(HeldSimulator& held, Eigen::VectorXd MechanismState::*what) {
   py::list found;
   for (const MechanismState& state : held.idle().robot_states()) {
@@ -228,9 +232,9 @@ void apply_force(HeldSimulator& held, const py::object& body, const py::object& 
                           vector_or(torque, "torque", Vector3d::Zero()), p_WP);
 }
 
-/// The target that is given, the only one.
+/// The one target that is given.
 ///
-/// @throws std::invalid_argument unless one of them is given
+/// @throws std::invalid_argument unless exactly one of them is given
 JointMotor::Kind kind_of(std::optional<double> position, std::optional<double> velocity,
                          std::optional<double> torque) {
   if (position.has_value() + velocity.has_value() + torque.has_value() != 1) {
@@ -275,7 +279,7 @@ void set_pair_surface(HeldSimulator& held, const py::object& a, const py::object
                                {.friction = friction, .restitution = restitution});
 }
 
-/// A step that was done stays done, whatever signal came: unlike a query it is not asked again.
+/// A finished step stays, whatever signal came: unlike a query it is not repeated.
 std::optional<RunStep> step_until(HeldSimulator& held, OrNone<std::stop_source> user) {
   while (true) {
     QueryStop stop(user);
@@ -300,34 +304,34 @@ std::string describe_simulator(HeldSimulator& held) {
 void bind_looks(py::class_<HeldSimulator>& type) {
   type.def_property_readonly(
           "names", [](HeldSimulator& s) { return names_of(s.idle().header()); },
-          "Of the bodies, in order.")
+          "Names of the bodies, in order.")
       .def_property_readonly(
           "masses", [](HeldSimulator& s) { return owning(std::vector(s.idle().header().masses)); },
-          "[kg] (n,), 0 of bodies that are not free; links of robots with dynamics have theirs.")
+          "[kg] (n,), 0 for bodies that are not free; links of robots with dynamics have theirs.")
       .def_property_readonly(
           "centres_of_mass",
           [](HeldSimulator& s) { return owning(std::vector(s.idle().header().centres_of_mass)); },
-          "[m] n×3, body frames.")
+          "[m] n×3, centres of mass in body frames.")
       .def_property_readonly(
           "scene",
           [](HeldSimulator& s) { return std::make_shared<HeldScene>(s.idle().header().scene); },
           "The resolved Scene.")
       .def_property_readonly(
           "warnings", [](HeldSimulator& s) { return s.idle().loaded().warnings; },
-          "What one should know of the scene that was read.")
+          "Warnings about the scene that was read.")
       .def_property_readonly(
           "pair_counts",
           [](HeldSimulator& s) { return pair_counts_tuple(s.idle().loaded().pair_counts); },
-          "PairCounts: which pairs are held apart.")
+          "PairCounts: the pairs that are held apart.")
       .def_property_readonly(
-          "dt", [](HeldSimulator& s) { return simulation_of(s).step; }, "[s] Of one step.")
+          "dt", [](HeldSimulator& s) { return simulation_of(s).step; }, "[s] Length of one step.")
       .def_property_readonly(
           "duration", [](HeldSimulator& s) { return simulation_of(s).duration; },
-          "[s] Of the scene; steps may go on after it.")
+          "[s] Duration of the scene; steps may go on after it.")
       .def_property_readonly(
           "steps_of_duration",
           [](HeldSimulator& s) { return simulation_step_count(simulation_of(s)); },
-          "Steps that the duration takes.")
+          "Number of steps of the duration.")
       .def_property_readonly(
           "header_json",
           [](HeldSimulator& s) { return without_line_feed(write_run_header(s.idle().header())); },
@@ -336,33 +340,33 @@ void bind_looks(py::class_<HeldSimulator>& type) {
 
 void bind_state(py::class_<HeldSimulator>& type) {
   type.def_property_readonly(
-          "time", [](HeldSimulator& s) { return s.idle().time(); }, "[s] Simulated so far.")
+          "time", [](HeldSimulator& s) { return s.idle().time(); }, "[s] Simulated time so far.")
       .def_property_readonly(
           "step_count", [](HeldSimulator& s) { return s.idle().step_count(); }, "Steps taken.")
       .def_property_readonly("positions", &positions,
-                             "[m] n×3, of the body frames' origins in the world.")
-      .def_property_readonly("quaternions_wxyz", &quaternions, "[-] n×4, of the body frames.")
+                             "[m] n×3, positions of the body frames' origins in the world.")
+      .def_property_readonly("quaternions_wxyz", &quaternions,
+                             "[-] n×4, quaternions of the body frames.")
       .def_property_readonly(
           "linear_velocities", [](HeldSimulator& s) { return rows(s, &RigidState::v_WC); },
-          "[m/s] n×3, of the centres of mass, world axes; of bodies that are not free over the "
-          "last "
-          "step.")
+          "[m/s] n×3, velocities of the centres of mass, world axes; those of bodies that are not "
+          "free over the last step.")
       .def_property_readonly(
           "angular_velocities", [](HeldSimulator& s) { return rows(s, &RigidState::w_WB); },
-          "[rad/s] n×3, world axes; likewise.")
+          "[rad/s] n×3, angular velocities, world axes; likewise.")
       .def_property_readonly(
           "robot_positions",
           [](HeldSimulator& s) { return robot_rows(s, &MechanismState::positions); },
           "[rad or m] A row for each robot with dynamics: its joints in the order of the URDF, a "
-          "free base before them. Of a pose: its position, then its quaternion w, x, y, z.")
+          "free base before them. A pose has its position, then its quaternion w, x, y, z.")
       .def_property_readonly(
           "robot_velocities",
           [](HeldSimulator& s) { return robot_rows(s, &MechanismState::velocities); },
-          "[rad/s or m/s] Likewise; of a pose: linear, then angular.")
-      .def(
-          "set_robot_state", &set_robot_state, py::arg("robot"), py::kw_only(),
-          py::arg("positions") = py::none(), py::arg("velocities") = py::none(),
-          R"(Puts a robot with dynamics elsewhere, or gives it other velocities; what is left out stays.
+          "[rad/s or m/s] A row for each robot with dynamics; a pose has linear, then angular "
+          "velocity.")
+      .def("set_robot_state", &set_robot_state, py::arg("robot"), py::kw_only(),
+           py::arg("positions") = py::none(), py::arg("velocities") = py::none(),
+           R"(Sets the place or the velocities of a robot with dynamics; arguments left out stay.
 
 robot: its number among them. positions, velocities: rows as in `robot_positions`. ValueError where
 their sizes are wrong, a quaternion is zero, a joint would be beyond its limits or a link would meet
@@ -370,7 +374,7 @@ something: then nothing is changed.)")
       .def("set_state", &set_state, py::arg("body"), py::kw_only(),
            py::arg("position") = py::none(), py::arg("quaternion_wxyz") = py::none(),
            py::arg("linear_velocity") = py::none(), py::arg("angular_velocity") = py::none(),
-           R"(Moves a free body elsewhere, or gives it other velocities; what is left out stays.
+           R"(Moves a free body elsewhere, or gives it other velocities; arguments left out stay.
 
 body: its number or its name. position: [m] (3,), of the body frame's origin in the world.
 quaternion_wxyz: [-] (4,), of the body frame, any length but zero. linear_velocity: [m/s] (3,), of
@@ -384,9 +388,9 @@ void bind_commands(py::class_<HeldSimulator>& type) {
            py::arg("torque") = none, py::arg("point") = none,
            R"(Adds a force and a torque to those on a free body, for the next step alone.
 
-body: its number or its name. force: [N] (3,). torque: [N m] (3,). point: [m] (3,), where the force
-acts, which adds a torque; else at the centre of mass. World axes. Several calls add up. ValueError
-where the body is not free or a link.)")
+body: its number or its name. force: [N] (3,). torque: [N m] (3,). point: [m] (3,), on which the
+force acts, which adds a torque; else the centre of mass. World axes. Several calls add up.
+ValueError where the body is not free or a link.)")
       .def("set_motor", &set_motor, py::arg("robot"), py::arg("joint"), py::kw_only(),
            py::arg("position") = none, py::arg("velocity") = none, py::arg("torque") = none,
            py::arg("stiffness") = none, py::arg("damping") = none, py::arg("effort") = none,
@@ -395,7 +399,7 @@ where the body is not free or a link.)")
 robot: its number among those with dynamics. joint: the name of a joint of one coordinate.
 position, velocity, torque: one of them; [rad, rad/s, N m], or [m, m/s, N] along a slide.
 stiffness, damping: make a position a spring and a damper, [N m/rad, N m s/rad]. effort: [N m or N],
-at most. What is left out stays as the joint's motor has it.)")
+at most. Arguments left out stay as the joint's motor has them.)")
       .def(
           "set_gravity",
           [](HeldSimulator& s, const py::object& gravity) {
@@ -404,13 +408,14 @@ at most. What is left out stays as the joint's motor has it.)")
           py::arg("gravity"), "Changes gravity from the next step on: [m/s²] (3,).")
       .def("set_surface", &set_surface, py::arg("body"), py::kw_only(), py::arg("friction") = none,
            py::arg("restitution") = none, py::arg("velocity") = none,
-           R"(Changes the surface of a body from the next step on; what is left out stays.
+           R"(Changes the surface of a body from the next step on; arguments left out stay.
 
 body: its number or its name. friction: [-] >= 0. restitution: [-] in [0, 1]. velocity: [m/s] (3,),
 of a belt, body axes.)")
       .def("set_pair_surface", &set_pair_surface, py::arg("body_a"), py::arg("body_b"),
            py::kw_only(), py::arg("friction") = none, py::arg("restitution") = none,
-           R"(The same for a pair of bodies, in place of what their two surfaces give.)");
+           "Changes the surface of a pair of bodies likewise, in place of their two surfaces' "
+           "values.");
 }
 
 }  // namespace
@@ -418,16 +423,15 @@ of a belt, body axes.)")
 void bind_simulator(py::module_& m) {
   py::class_<HeldSimulator> type(
       m, "Simulator",
-      R"(Bodies that move under forces and contacts; what is free never interpenetrates.
+      R"(Simulator of bodies that move under forces and contacts; free bodies never interpenetrate.
 
-Step by step, the in-between motion of every body is known, and every pair is proven apart over all
-of it. The same on every run, and as the tool's `firstcontact simulate`. Rows of arrays are bodies
-in the scene's order, then the geometries of robots' links; arrays are new ones at each look.)");
-  type.def(
-      py::init(&make), py::arg("scene"), py::kw_only(), py::arg("duration") = py::none(),
-      py::arg("step") = py::none(), py::arg("lenient") = false, py::arg("threads") = 0,
-      R"(scene: as check takes it, with "dynamics" of bodies; or the path of a fixture of Rigid IPC.
-duration, step: [s] in place of the scene's. lenient: as of load_scene. threads: at most so many; 0
+In each step the in-between motion of every body is known, and every pair is proven apart over all
+of it. It is the same on every run, and as the tool's `firstcontact simulate`. Rows of arrays are
+bodies in the scene's order, then the geometries of robots' links. Each access makes new arrays.)");
+  type.def(py::init(&make), py::arg("scene"), py::kw_only(), py::arg("duration") = py::none(),
+           py::arg("step") = py::none(), py::arg("lenient") = false, py::arg("threads") = 0,
+           R"(scene: as for check, with "dynamics" of bodies; or the path of a fixture of Rigid IPC.
+duration, step: [s] in place of the scene's. lenient: as for load_scene. threads: at most so many; 0
 for one on each core; the run is the same. ValueError where two bodies meet at the start, or a mass
 cannot be found.)");
   bind_state(type);
@@ -437,16 +441,16 @@ cannot be found.)");
       .def("step", &step_until, py::arg("stop"),
            R"(Takes a step: the scene's, or as far as could be proven.
 
-Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt; then a step was taken whole, or nothing
-has changed: `step_count` says which. stop: a StopSource; None where it was stopped, then nothing has
-changed.)")
+Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt; then a step was taken whole, or
+nothing has changed, as `step_count` shows. stop: a StopSource; returns None where it was stopped,
+and then nothing has changed.)")
       .def(
           "resume", [](HeldSimulator& s, const RunStep& last) { s.idle().resume(last); },
           py::arg("step"),
           R"(Goes on after a step of a run of the same scene, bit for bit as that run did.
 
-step: as from RunReader, or from an earlier `step`. A record has no commands: forces, motors, gravity
-and surfaces are those of this simulator. ValueError where it is not of such a run.)")
+step: from RunReader, or from an earlier `step`. A record has no commands: forces, motors, gravity
+and surfaces are those of this simulator. ValueError where the step is not of such a run.)")
       .def("__repr__", &describe_simulator);
 }
 

@@ -104,7 +104,7 @@ py::array times_of(const Trajectory& trajectory) {
   return owning(std::move(times));
 }
 
-/// None where the points have none.
+/// An array of one kind of numbers; None where the points have none.
 py::object rows_of(const Trajectory& trajectory, Numbers numbers) {
   if ((trajectory.points.front().*numbers).empty()) {
     return py::none();
@@ -118,7 +118,7 @@ py::object rows_of(const Trajectory& trajectory, Numbers numbers) {
                              all.data());
 }
 
-/// By which it is made again.
+/// The arguments that make the trajectory again.
 py::tuple state_of(const Trajectory& trajectory) {
   return py::make_tuple(trajectory.joint_names, times_of(trajectory),
                         rows_of(trajectory, &TrajectoryPoint::positions),
@@ -164,24 +164,24 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
 }
 
 void bind_class(py::module_& m) {
-  py::class_<Trajectory>(m, "Trajectory", R"(Where the joints of a robot are at some times.
+  py::class_<Trajectory>(m, "Trajectory", R"(Positions of the joints of a robot at some times.
 
-Between them linear, cubic where there are velocities, quintic where there are accelerations too.
-The robot rests before the first time and after the last. Never changes.)")
+Between them the motion is linear, with velocities cubic, with accelerations too quintic. The robot
+rests before the first time and after the last. A trajectory never changes.)")
       .def(py::init(&make_trajectory), py::arg("joint_names"), py::arg("times"),
            py::arg("positions"), py::arg("velocities") = py::none(),
            py::arg("accelerations") = py::none(), py::arg("turning") = Turning::as_given,
            R"(joint_names: of the columns; a planar joint has NAME/x, NAME/y, NAME/theta.
 times: [s] (n,), >= 0, strictly increasing. positions: [rad or m] n×joints, a row for each time.
 velocities, accelerations: [per s, per s^2] as positions. turning: the way of continuous joints and
-of the angles of planar ones between the points, "long" as the numbers say, or "short".)")
+of the angles of planar ones between the points, "long" by the numbers, or "short".)")
       .def_property_readonly(
           "joint_names", [](const Trajectory& t) { return py::tuple(py::cast(t.joint_names)); },
-          "Of the columns.")
+          "Names of the columns.")
       .def_property_readonly("times", &times_of, "[s] (n,)")
       .def_property_readonly(
           "positions", [](const Trajectory& t) { return rows_of(t, &TrajectoryPoint::positions); },
-          "[rad or m] n×joints")
+          "[rad or m] n×joints, a row for each time.")
       .def_property_readonly(
           "velocities",
           [](const Trajectory& t) { return rows_of(t, &TrajectoryPoint::velocities); },
@@ -195,17 +195,17 @@ of the angles of planar ones between the points, "long" as the numbers say, or "
           "Turning: the way of continuous joints between the points.")
       .def_property_readonly(
           "warnings", [](const Trajectory& t) { return py::tuple(py::cast(t.warnings)); },
-          "What a user should know of the file that was read.")
+          "Warnings about the file that was read.")
       .def(
           "unwrapped",
           [](const Trajectory& t, const HeldRobotModel& robot) {
             return unwrapped(robot.model, t);
           },
           py::arg("robot"),
-          R"(The trajectory of a recording whose angles wrap, without jumps of whole turns.
+          R"(Makes the trajectory of a recording whose angles wrap, without jumps of whole turns.
 
-No step between its points is of more than half a turn then, of joints of the RobotModel that can
-turn by more than a turn.)")
+No step between its points then exceeds half a turn for joints of the RobotModel that can turn by
+more than a turn.)")
       .def("__len__", [](const Trajectory& t) { return t.points.size(); })
       .def("__eq__",
            [](const Trajectory& a, const py::object& b) {
@@ -240,8 +240,8 @@ void bind_trajectory(py::module_& m) {
       py::arg("path"), py::arg("robot"), py::arg("unwrap") = false,
       R"(Reads a trajectory: .csv, or .json and .yaml as the tool and ROS write them.
 
-robot: a RobotModel, whose joints it names. unwrap: takes jumps of whole turns out of a recording
-whose angles wrap. ParseError where the file cannot be used.)");
+robot: the RobotModel with the joints. unwrap: removes jumps of whole turns from a recording whose
+angles wrap. ParseError where the file cannot be used.)");
   m.def("read_request", &read_request, py::arg("path"), py::arg("robot"),
         "Reads a MoveIt request, whose goal is one of joint positions.");
 }

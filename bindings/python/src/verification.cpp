@@ -32,7 +32,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What was proven, and of what.
+/// A second proof, and its subject.
 struct Verified {
   RunHeader header;
   RunVerification found;
@@ -81,7 +81,7 @@ py::object to_tuple(const std::optional<ProofMoment>& moment) {
                 : py::none();
 }
 
-/// How the second proof of a result or a path is asked for.
+/// The arguments of the second proof of a result or a path.
 struct Asked {
   std::size_t work = 0;
   int threads = 0;
@@ -89,7 +89,7 @@ struct Asked {
   const std::stop_source* stop = nullptr;
 };
 
-/// What `prove` says of a claim, without the GIL.
+/// Calls `prove` for a claim, without the GIL.
 template <class Prove>
 auto proof_of(const std::string& source, const Asked& asked, const Prove& prove) {
   return run_query(asked.stop, [&](QueryStop& query) {
@@ -133,19 +133,18 @@ py::object prove_path(const std::string& text, const std::string& source, bool l
 
 void bind_verification(py::module_& m) {
   const VerifyRunOptions defaults;
-  m.def(
-      "verify_run", &prove_run, py::arg("path"), py::kw_only(),
-      py::arg("scripted_tolerance") = defaults.scripted_tolerance, py::arg("work") = defaults.work,
-      py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
-      R"(Proves of a recorded run, with other code than the simulation's, that no free body interpenetrates.
+  m.def("verify_run", &prove_run, py::arg("path"), py::kw_only(),
+        py::arg("scripted_tolerance") = defaults.scripted_tolerance,
+        py::arg("work") = defaults.work, py::arg("threads") = 0, py::arg("progress") = py::none(),
+        py::arg("stop") = py::none(),
+        R"(Proves by other code than the simulation's that no free body of a run interpenetrates.
 
-As the tool's `firstcontact verify`. path: of the file that simulate or the tool recorded.
-scripted_tolerance: [m] so far a scripted body may be from where its motion in the scene puts it at
-the end of a step; within steps the contact distance is added.
-work: tests of two boxes or triangles for one pair and one step. threads: at most; 0 for one on each
-core; the answer does not depend on it. progress: called with the time that is proven, in s. stop:
-ends it `not_proven`, with what is proven so far. Ctrl-C raises KeyboardInterrupt. ParseError where
-the file is no run.)");
+It is the tool's `firstcontact verify`. path: of the file that simulate or the tool recorded.
+scripted_tolerance: [m] the most by which a scripted body may be off its motion in the scene at the
+end of a step; within steps the contact distance is added. work: tests of two boxes or triangles for
+one pair and one step. threads: at most; 0 for one on each core; the answer does not depend on it.
+progress: called with the proven time [s]. stop: ends the proof as `not_proven`, with what is proven
+so far. Ctrl-C raises KeyboardInterrupt. ParseError where the file is no run.)");
   const VerifyResultOptions asked;
   for (const auto& [name, prove] : {std::pair("verify_result_text", &prove_result),
                                     std::pair("verify_path_text", &prove_path)}) {

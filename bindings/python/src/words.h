@@ -1,6 +1,7 @@
 /// @file
-/// Enumerators as members of the Python enumerations in firstcontact/_words.py, whose values are
-/// the words of scenes and results. A word in place of a member is as good.
+/// Enumerators as members of the Python enumerations in firstcontact/_words.py.
+///
+/// Their values are the words of scenes and results. A word may stand in place of a member.
 
 #pragma once
 
@@ -34,7 +35,7 @@ struct Words<Verdict> {
   static constexpr const auto& kWords = kVerdictWords;
 };
 
-/// The words of deforming features, which have no `contact_at_start`.
+/// The words of LinearVerdict, which has no `contact_at_start`.
 template <>
 struct Words<LinearVerdict> {
   static constexpr const char* kName = "Verdict";
@@ -53,7 +54,7 @@ struct Words<StartContacts> {
   static constexpr const auto& kWords = kStartContactsWords;
 };
 
-/// The words of those that are no number.
+/// The words of the choices that are no number.
 template <>
 struct Words<ContactState> {
   static constexpr const char* kName = "ContactState";
@@ -109,7 +110,7 @@ struct Words<ProofVerdict> {
   static constexpr const auto& kWords = kProofVerdictWords;
 };
 
-/// Refuses an answer as a condition: `if first_contact(...)` would hold of every answer.
+/// Refuses an answer as a condition: `if first_contact(...)` would be true for every answer.
 template <class Type>
 void refuse_as_condition(Type& type) {
   type.def("__bool__", [](const pybind11::object&) -> bool {
@@ -121,9 +122,11 @@ void refuse_as_condition(Type& type) {
 /// A class of firstcontact/_tuples.py.
 pybind11::object tuple_type(const char* name);
 
-/// A member of a class of firstcontact/_words.py, kept for good.
+/// A member of a class of firstcontact/_words.py, kept for the lifetime of the process.
 pybind11::handle member(const char* enumeration, const char* word);
 
+/// Finds the enumerator of a word or member.
+///
 /// @throws pybind11::value_error that names the words
 [[noreturn]] void refuse_word(const char* enumeration, const char* const* words, std::size_t count,
                               const std::string& got);
@@ -160,7 +163,7 @@ class WordCaster {
   }
 };
 
-/// Which contacts are listed: a word, or the greatest number of them.
+/// The choice of listed contacts: a word, or their greatest number.
 class ContactStateCaster {
   using TheWords = Words<ContactState>;
 
