@@ -332,8 +332,7 @@ void bind_pair(py::module_& m) {
       .def_property_readonly(
           "contact_count_is_exact",
           [](const ScenePair& p) { return p.answer().contact_count.is_exact; },
-          "False where only the first was asked for, or counting ended early: then there may be "
-          "more.")
+          "False where only the first was asked for or counting ended early: there may be more.")
       .def_property_readonly("clearance", of_pair(&PairAnswer::clearance),
                              "[m] Proven lower bound of the distance before t.")
       .def_property_readonly("tolerance_used", of_pair(&PairAnswer::tolerance_used), "[m]")
@@ -389,12 +388,10 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly(
           "contact_count_is_exact",
           [](const HeldResult& r) { return contact_count_of(r).is_exact; },
-          "False where only the first was asked for, or counting ended early: then there may be "
-          "more.")
+          "False where only the first was asked for or counting ended early: there may be more.")
       .def_property_readonly(
           "clearance", [](const HeldResult& r) { return r.answer.clearance; },
-          "[m] Proven lower bound of every pair's distance up to t; infinite "
-          "where no pair is tested.")
+          "[m] Proven lower bound of all distances up to t; infinite where no pair is tested.")
       .def_property_readonly(
           "closest", [](const std::shared_ptr<HeldResult>& r) { return closest_of(r); },
           "The pair that comes closest; None where that was not asked for.")
