@@ -16,24 +16,23 @@
 namespace firstcontact::app {
 namespace {
 
-/// What a new file may be read and written by: 0666 without the umask.
+/// The permissions of a new file: 0666 without the umask.
 mode_t new_file_mode() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
 }
 
-constexpr int kMostLinks = 40;  // As the kernel.
+constexpr int kMostLinks = 40;  // The limit of the kernel.
 
-/// Where a symbolic link leads.
+/// The target of a symbolic link.
 std::filesystem::path next_of(const std::filesystem::path& link) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::read_symlink(link, error);
   return error ? link : link.parent_path() / target;  // An absolute target replaces the folder.
 }
 
-/// Where a symbolic link leads in the end, so that the link stays one; it need not lead to a file
-/// yet.
+/// The last target of symbolic links, so that the links stay; the target need not exist yet.
 std::filesystem::path resolved(std::filesystem::path path) {
   std::error_code error;
   for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, error); ++k) {
@@ -44,8 +43,8 @@ std::filesystem::path resolved(std::filesystem::path path) {
 
 /// The descriptor of this process that a path names, as /dev/stdout and /dev/fd/63 do; or -1.
 ///
-/// Its links tell what it is open on. To open that a second time would write over what the
-/// descriptor writes, and a pipe may have no name.
+/// Its links show the open file. To open that a second time would overwrite the output of the
+/// descriptor, and a pipe may have no name.
 int own_descriptor(std::filesystem::path path) {
   std::error_code error;
   const std::filesystem::path own = std::filesystem::canonical("/proc/self/fd", error);
@@ -89,7 +88,7 @@ void AtomicFile::begin_temporary() {
   struct stat replaced = {};
   const bool replaces = ::stat(target_.c_str(), &replaced) == 0;
   if (replaces && ((replaced.st_mode & S_IWUSR) == 0 || ::access(target_.c_str(), W_OK) != 0)) {
-    errno = EACCES;  // As of a write to it, which a new file in its place would get round.
+    errno = EACCES;  // As for a write to it, which a new file in its place would evade.
     fail("cannot write this file");
   }
   std::string name = target_.string() + ".XXXXXX";
@@ -99,7 +98,7 @@ void AtomicFile::begin_temporary() {
   }
   temporary_ = name;
   if (replaces) {
-    // Only root may give files away; others keep what they write.
+    // Only root may give files away; other users keep what they write.
     [[maybe_unused]] const int kept = ::fchown(descriptor_, replaced.st_uid, replaced.st_gid);
   }
   constexpr mode_t kPermissions = 0777;

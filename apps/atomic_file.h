@@ -8,16 +8,18 @@
 
 namespace firstcontact::app {
 
-/// Writes to a temporary file beside the target, which takes the target's name on commit, and the
+/// Writes a file that appears on commit, or not at all.
+///
+/// It writes to a temporary file beside the target. On commit that takes the target's name, and the
 /// permissions of a file that it replaces. A target that is no plain file, such as a pipe or
-/// /dev/null, is written directly; so is a descriptor of this process, such as /dev/stdout.
+/// /dev/null, is written directly. So is a descriptor of this process, such as /dev/stdout.
 ///
 /// @throws std::runtime_error, one line that names the file, where it cannot be written
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
 
-  /// Without a commit nothing is left behind.
+  /// Removes the temporary file, unless it was committed.
   ~AtomicFile();
 
   AtomicFile(const AtomicFile&) = delete;
@@ -35,7 +37,7 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-/// Writes one text.
+/// Writes one text to a file.
 void write_file(const std::filesystem::path& target, std::string_view text);
 
 }  // namespace firstcontact::app

@@ -51,13 +51,13 @@ struct Arguments {
   std::string jobs;
   std::string results;
   std::string page;
-  int threads = 0;  // As many as there are processors.
+  int threads = 0;  // 0 for as many as there are processors.
   Shard shard;
   bool resume = false;
   Question question;
 };
 
-/// The next scene of a shard.
+/// Reads the next scene of a shard.
 std::optional<SceneLine> next_of(const Shard& shard, SceneLines& lines) {
   std::optional<SceneLine> line = lines.next();
   while (line && !shard.has(line->number)) {
@@ -66,15 +66,17 @@ std::optional<SceneLine> next_of(const Shard& shard, SceneLines& lines) {
   return line;
 }
 
-/// What is known of the jobs before the first is answered.
+/// A survey of the jobs before the first is answered.
 struct Survey {
-  std::size_t scenes = 0;  ///< Of the shard.
-  std::string digest;      ///< Of the whole file.
+  std::size_t scenes = 0;  ///< Number of scenes of the shard.
+  std::string digest;      ///< Digest of the whole file.
 };
 
+/// Requires one scene in each line.
+///
 /// @throws ParseError if the jobs are one scene that goes over several lines
 void require_lines(const std::string& jobs, const std::string& first) {
-  constexpr std::uintmax_t kMost = 1U << 26U;  // [bytes]  Larger files are no scenes of a person.
+  constexpr std::uintmax_t kMost = 1U << 26U;  // [bytes]  A larger file is no scene of a person.
   if (nlohmann::json::accept(first) || std::filesystem::file_size(jobs) > kMost) {
     return;
   }
@@ -129,7 +131,7 @@ std::string options_text(const Arguments& arguments) {
   return text.empty() ? " none" : text;
 }
 
-/// What the results of a command line are the results of; where any of it differs, so may they.
+/// The origin of the results of a command line; where any of it differs, the results may differ.
 std::string origin_of(const Arguments& arguments, const Survey& found) {
   return fmt::format("firstcontact {}\nthe jobs {}, digest {}\nthe options{}\nthe shard {}/{}\n",
                      version(), arguments.jobs, found.digest, options_text(arguments),
@@ -173,7 +175,7 @@ class Batch {
   }
 
  private:
-  /// Nobody wants the results in the place of the jobs.
+  /// Opens the results, which must not replace the jobs.
   ResultsFile open_results() const {
     const std::vector<OutputFile> outputs{{"-o", arguments_.results},
                                           {"-o", arguments_.results + ".batch"},
@@ -181,12 +183,12 @@ class Batch {
     require_different(outputs);
     require_no_input(outputs, {arguments_.jobs});
     if (!arguments_.page.empty()) {
-      (void)viewer_page();  // Without the viewer all would be answered, and no page made.
+      (void)viewer_page();  // Without the viewer all jobs would be answered, and no page made.
     }
     return {arguments_.results, origin_of(arguments_, survey_), arguments_.resume};
   }
 
-  /// Counts what an earlier run has done, and passes over its jobs.
+  /// Counts the results of an earlier run, and passes over their jobs.
   void keep_results() {
     results_.for_each_kept([this](std::size_t number, const std::string& line) {
       const ResultSummary kept = read_summary(line, arguments_.results, number);
@@ -215,7 +217,7 @@ class Batch {
     }
   }
 
-  /// The error, which names the job's line in any case; that of a mesh names only the mesh.
+  /// The error with the job's line; the error of a mesh alone names only the mesh.
   [[nodiscard]] std::string named(const LineAnswer& answer) const {
     const std::string place = fmt::format("{}:{}: ", arguments_.jobs, answer.line);
     return answer.error.rfind(place, 0) == 0 ? answer.error : place + answer.error;
@@ -225,7 +227,7 @@ class Batch {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
-  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
   std::chrono::steady_clock::time_point begin_;
   const Arguments& arguments_;

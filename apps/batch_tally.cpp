@@ -10,7 +10,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// "40 s", "2 min 40 s", "3 h 2 min"
+/// A duration as text: "40 s", "2 min 40 s", "3 h 2 min".
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   if (whole < 60) {

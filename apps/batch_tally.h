@@ -1,5 +1,5 @@
 /// @file
-/// How far a batch is, and what came out of it.
+/// The progress of a batch, and its results.
 
 #pragma once
 
@@ -13,32 +13,32 @@ namespace firstcontact::app {
 
 class BatchTally {
  public:
-  /// @param total  how many scenes there are
+  /// @param total  number of scenes
   explicit BatchTally(std::size_t total) : total_(total) {}
 
-  /// Counts an answer of an earlier run; none is an error.
+  /// Counts an answer of an earlier run; none stands for an error.
   void keep(std::optional<Verdict> verdict);
   void add(std::optional<Verdict> verdict);
 
   [[nodiscard]] std::size_t kept() const { return kept_; }
   [[nodiscard]] bool complete() const { return done_ == total_; }
 
-  /// The worst of all answers; undecided where some are missing.
+  /// The worst status of all answers; undecided where some are missing.
   [[nodiscard]] ExitStatus status() const;
 
-  /// "[=====     ]  50 %  500 of 1000, 12.5 a second, 40 s left"
+  /// The progress as text: "[=====     ]  50 %  500 of 1000, 12.5 a second, 40 s left".
   [[nodiscard]] std::string progress(double seconds) const;
 
-  /// What there is to say at the end, in lines.
+  /// The lines for the end of the batch.
   [[nodiscard]] std::string summary(double seconds) const;
 
  private:
-  /// [1/s]  Of this run.
+  /// [1/s]  Rate of this run.
   [[nodiscard]] double rate(double seconds) const;
 
   std::size_t total_;
   std::size_t kept_ = 0;
-  std::size_t done_ = 0;  // The kept ones included.
+  std::size_t done_ = 0;  // Number of answers, the kept ones included.
   std::size_t free_ = 0;
   std::size_t contact_ = 0;
   std::size_t contact_at_start_ = 0;

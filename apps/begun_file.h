@@ -1,5 +1,5 @@
 /// @file
-/// A file of which is known before long work that it can be written.
+/// A file that is known to be writable before long work.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace firstcontact::app {
 
-/// A file that is begun before the work that fills it, if it has a name.
+/// A file that is begun before the work whose result it holds, if it has a name.
 class BegunFile {
  public:
   BegunFile() = default;

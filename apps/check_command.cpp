@@ -72,7 +72,7 @@ class Check {
       throw std::invalid_argument("--html shows one scene; give one .json file");
     }
     if (!arguments_.page.empty()) {
-      page_ = viewer_page();  // Missing is better known before the work than after it.
+      page_ = viewer_page();  // A missing viewer is reported before the work.
     }
     keep_inputs();
     if (!arguments_.output.empty()) {
@@ -102,7 +102,7 @@ class Check {
   }
 
  private:
-  /// Whether there may be many scenes: then one bad scene does not keep the rest from an answer.
+  /// Whether there may be many scenes: one bad scene then does not end the others.
   static bool is_batch(const Arguments& arguments) {
     return arguments.files.size() > 1 ||
            (arguments.files.size() == 1 && is_json_lines(arguments.files.front()));
@@ -152,7 +152,7 @@ class Check {
     }
   }
 
-  /// Ends the work where there is only one scene.
+  /// Takes a lack of memory, which ends the work where there is only one scene.
   void take_lack_of_memory(const std::string& id, const SceneSource& source) {
     if (!batch_) {
       throw;
@@ -169,7 +169,7 @@ class Check {
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
     status_ = worse(status_, status_of(answer.result.verdict));
     write_json(result_text(answer, question_.writes_pairs(), source.line));
-    ++answered_;  // Once there is a result to keep.
+    ++answered_;  // Only once there is a result to keep.
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
       say(describe(title, answer,
@@ -191,7 +191,7 @@ class Check {
     }
   }
 
-  /// Once they are there.
+  /// Reports the written files, once they exist.
   void say_written() const {
     for (const auto& [label, file] : {std::pair("plot", arguments_.plot),
                                       {"table", arguments_.gap},
@@ -234,17 +234,17 @@ class Check {
     }
     if (json_on_stdout()) {
       std::fwrite(text.data(), 1, text.size(), stdout);
-      std::fflush(stdout);  // A line is there as soon as it is known.
+      std::fflush(stdout);  // A line appears as soon as it is known.
     }
   }
 
-  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
   const Arguments& arguments_;
   std::vector<OutputFile> outputs_;
   Question question_;
   bool batch_;
-  std::string page_;  // Without a result.
+  std::string page_;  // The page without a result.
   std::optional<AtomicFile> output_;
   std::optional<ShapeCache> cache_ = std::make_optional<ShapeCache>();
   ManyBodiesWorkspace workspace_;
@@ -252,7 +252,7 @@ class Check {
   std::size_t answered_ = 0;
 };
 
-/// A scene, or a robot.
+/// Requires a scene, or a robot.
 void require_one_question(const Arguments& arguments) {
   if (!arguments.files.empty() && arguments.robot.robot.empty()) {
     require_no_option_of_a_robot(arguments.robot);

@@ -9,10 +9,12 @@
 
 namespace firstcontact::app {
 
-/// Adds an option that takes the name of a file. An empty one, such as of a shell's variable that
-/// is not set, is refused: the option must not be lost in silence.
+/// Adds an option that takes the name of a file.
 ///
-/// @param names  as CLI::App::add_option; errors go by the first
+/// An empty name, such as that of an unset shell variable, is refused: the option must not be lost
+/// in silence.
+///
+/// @param names  as for CLI::App::add_option; errors name the first
 CLI::Option* add_file(CLI::App& command, const std::string& names, std::string& file,
                       const std::string& description);
 

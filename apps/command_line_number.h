@@ -1,5 +1,5 @@
 /// @file
-/// Numbers on the command line, as strictly as in a scene.
+/// Numbers on the command line, read as strictly as in a scene.
 
 #pragma once
 
@@ -23,7 +23,7 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& 
 
 /// Adds --threads, which takes 0 to 1024.
 ///
-/// @param same  what is the same for any number of them: "The answer"
+/// @param same  the thing that does not depend on their number: "The answer"
 CLI::Option* add_threads(CLI::App& command, int& threads, const std::string& same);
 
 }  // namespace firstcontact::app

@@ -11,7 +11,7 @@ namespace firstcontact::app {
 
 /// Adds each command of the tool; one of them runs while the command line is parsed.
 ///
-/// `firstcontact` has all of them. The first look at a build that goes on has `check` alone.
+/// `firstcontact` has all of them. The demonstration that runs during a build has `check` alone.
 void add_commands(CLI::App& app, ExitStatus& status);
 
 }  // namespace firstcontact::app

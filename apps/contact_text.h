@@ -12,20 +12,22 @@
 
 namespace firstcontact::app {
 
-/// "(1, 2, 3)"
+/// A point as text: "(1, 2, 3)".
 [[nodiscard]] std::string point_text(const Eigen::Vector3d& point);
 
-/// "triangle 7", "edge 12 of triangle 7"
+/// A feature as text: "triangle 7", "edge 12 of triangle 7".
 [[nodiscard]] std::string feature_text(const Feature& feature);
 
-/// "at (1, 2, 3) m, distance 35.3 nm, normal ( 1.000,  0.000,  0.000), closing at 60 m/s"
+/// A contact as text: "at (1, 2, 3) m, distance 35.3 nm, normal ( 1.000,  0.000,  0.000), closing
+/// at 60 m/s".
 ///
 /// @param duration  [s]  of the step
 [[nodiscard]] std::string contact_text(const Contact& contact, double duration);
 
-/// "7 feature pairs", "1000 of 180045 feature pairs", "1000 of more than 262144 feature pairs"
+/// A count as text: "7 feature pairs", "1000 of 180045 feature pairs", "1000 of more than 262144
+/// feature pairs".
 ///
-/// @param listed  of them
+/// @param listed  number of listed pairs
 [[nodiscard]] std::string contact_count_text(const ContactCount& count, std::size_t listed);
 
 }  // namespace firstcontact::app

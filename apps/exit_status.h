@@ -1,5 +1,5 @@
 /// @file
-/// What the tool tells the shell.
+/// The status that the tool returns to the shell.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace firstcontact::app {
 
-/// The values are those that the shell sees.
+/// The exit status; its values are those of the shell.
 enum class ExitStatus { free = 0, contact = 1, bad_input = 2, undecided = 3 };
 
 inline constexpr ExitStatus kSuccess = ExitStatus::free;
@@ -25,7 +25,7 @@ inline constexpr ExitStatus kSuccess = ExitStatus::free;
   return ExitStatus::undecided;
 }
 
-/// The status of several scenes, the worst: bad input, then undecided, contact, free.
+/// The worse status, in the order bad input, undecided, contact, free.
 [[nodiscard]] inline ExitStatus worse(ExitStatus a, ExitStatus b) {
   const auto badness = [](ExitStatus status) {
     return status == ExitStatus::bad_input ? 4 : static_cast<int>(status);

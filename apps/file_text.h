@@ -1,5 +1,5 @@
 /// @file
-/// What became of files, as people read it on a terminal.
+/// Reports on files as text for a terminal.
 
 #pragma once
 
@@ -10,13 +10,14 @@
 
 namespace firstcontact::app {
 
-/// "STL, 12 triangles, 8 vertices; lengths in 1 m"
+/// The contents of a file as text: "STL, 12 triangles, 8 vertices; lengths in 1 m".
 [[nodiscard]] std::string contents_text(const FileReport& report);
 
-/// "3 <material> (looks), 1 <gazebo> (settings of a simulator)"; empty where nothing was.
+/// The names left out as text: "3 <material> (looks), 1 <gazebo> (settings of a simulator)"; empty
+/// where there are none.
 [[nodiscard]] std::string left_out_text(const FileReport& report);
 
-/// A few lines for each file, indented by four.
+/// Describes each file in a few lines, indented by four.
 [[nodiscard]] std::string describe_files(std::span<const FileReport> reports);
 
 }  // namespace firstcontact::app

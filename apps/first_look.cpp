@@ -1,5 +1,5 @@
-// `check` alone needs neither planning, simulation, haptics nor second proofs: the demonstration
-// shows what it finds before these are compiled.
+// The tool with `check` alone, which needs neither planning, simulation, haptics nor second proofs.
+// The demonstration shows its results before these are compiled.
 
 #include "check_command.h"
 #include "commands.h"

@@ -21,7 +21,7 @@ void keep_freed_memory() {
 
 void take_stack() {
   constexpr std::size_t kSize = std::size_t{512} << 10;  // [bytes]
-  constexpr std::size_t kPage = 4096;                    // [bytes]  No larger than pages are.
+  constexpr std::size_t kPage = 4096;                    // [bytes]  At most the size of pages.
   std::array<volatile char, kSize> stack;
   for (std::size_t k = 0; k < kSize; k += kPage) {
     stack[k] = 0;

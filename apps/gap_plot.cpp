@@ -53,7 +53,8 @@ double greatest_distance(const std::vector<GapSample>& curve) {
   return greatest;
 }
 
-/// [m]  Over the whole step; 0 where the closest approach was not asked for.
+/// [m]  The least proven distance over the whole step; 0 where the closest approach was not asked
+/// for.
 double least_proven(const SceneResult& result) {
   return result.closest ? result.pairs[*result.closest].closest->lower_bound : 0.0;
 }
@@ -114,13 +115,13 @@ class Plot {
     }
   }
 
-  /// Proven free; and what lies after it.
+  /// Draws the region that is proven free, and the one after it.
   void regions() {
     region(0.0, answer_.result.t, "#eaf5ec");
     region(answer_.result.t, 1.0, "#f6efec");
   }
 
-  /// Below it the gap is proven not to be.
+  /// Draws the proven lower bound of the gap.
   void lower_bound() {
     const std::vector<GapPoint> bound =
         gap_lower_bound(answer_.loaded, answer_.result, answer_.curve);

@@ -10,9 +10,9 @@
 
 namespace firstcontact::app {
 
-/// Draws the curve of an answer, its samples, and what is proven about it.
+/// Draws the curve of an answer, its samples, and the proven bounds.
 ///
-/// @param title  of the picture
+/// @param title  title of the picture
 [[nodiscard]] std::string gap_plot(std::string_view title, const SceneAnswer& answer);
 
 }  // namespace firstcontact::app

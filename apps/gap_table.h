@@ -9,8 +9,10 @@
 
 namespace firstcontact::app {
 
-/// Rows of t, time [s], distance [m], lower_bound [m]. The gap is proven not to be below the
-/// straight lines between the lower bounds; rows between samples have no distance.
+/// Writes rows of t, time [s], distance [m], lower_bound [m].
+///
+/// The straight lines between the lower bounds are a proven lower bound of the gap. Rows between
+/// samples have no distance.
 [[nodiscard]] std::string gap_table(const SceneAnswer& answer);
 
 }  // namespace firstcontact::app

@@ -33,7 +33,7 @@ DeviceWord cut(std::string_view word) {
   const std::size_t sign = word.find('=');
   const std::string_view name = word.substr(0, sign);
   if (name != kMouse && name != kSpaceMouse && name != kHaply && name != kPlugin) {
-    return {word, std::nullopt};  // Paths may have the sign.
+    return {word, std::nullopt};  // Paths may contain the sign.
   }
   return sign == std::string_view::npos ? DeviceWord{name, std::nullopt}
                                         : DeviceWord{name, word.substr(sign + 1)};
@@ -43,7 +43,7 @@ DeviceWord cut(std::string_view word) {
   throw ParseError("--device " + word, expected);
 }
 
-/// Of a whole number from 1 on; none if the text is something else.
+/// The port of a whole number from 1 on; none if the text is something else.
 std::optional<std::uint16_t> port_of(std::string_view text) {
   std::uint16_t port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
@@ -51,7 +51,7 @@ std::optional<std::uint16_t> port_of(std::string_view text) {
   return is_port ? std::optional(port) : std::nullopt;
 }
 
-/// Of an address "ws://HOST:PORT", of which the scheme may be left out.
+/// The options of an address "ws://HOST:PORT", whose scheme may be left out.
 HaplyOptions haply_at(const std::string& word, std::string_view place) {
   if (place.starts_with(kScheme)) {
     place.remove_prefix(kScheme.size());
@@ -143,7 +143,7 @@ std::optional<std::filesystem::path> file_of_device(const std::string& word) {
 }
 
 double duration_of_recording(const std::string& word, const Recording& recording) {
-  constexpr double kLongest = 1e9;  // [s]  As prepare_haptics().
+  constexpr double kLongest = 1e9;  // [s]  As prepare_haptics() has it.
   const RecordedDeviceOptions options;
   const double span = 1e-9 * static_cast<double>(RecordedDevice(recording, options).duration_ns());
   if (span > kLongest) {

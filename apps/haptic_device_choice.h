@@ -1,5 +1,5 @@
 /// @file
-/// The words of `--device`: which haptic device moves a tool, and where it is found.
+/// The words of `--device`: the haptic device that moves a tool, and its address.
 
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace firstcontact::app {
 
-/// A hand without hardware.
+/// A simulated hand, without hardware.
 struct SimulatedChoice {};
 
-/// A plug-in, and the settings that its device is opened by.
+/// A plug-in, and the settings for its device.
 struct PluginChoice {
   std::string path;
   std::string settings;
@@ -38,24 +38,24 @@ using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptio
 /// @throws ParseError  where an address has another form, or the recording is none
 [[nodiscard]] DeviceChoice read_device_choice(const std::string& word);
 
-/// Whether a hand moves the device, so that it stands on the wall clock.
+/// Whether a person's hand moves the device, so that it needs the wall clock.
 [[nodiscard]] bool is_live(const DeviceChoice& choice);
 
 /// The file that a word names; none where it names no file.
 [[nodiscard]] std::optional<std::filesystem::path> file_of_device(const std::string& word);
 
-/// [s]  Until the last sample was held, as the device holds it: all samples are felt.
+/// [s]  The time to the end of the last sample, as the device holds it: all samples are used.
 ///
-/// @param word  that names the recording
+/// @param word  the word that names the recording
 /// @throws ParseError  where it is longer than a session can be
 [[nodiscard]] double duration_of_recording(const std::string& word, const Recording& recording);
 
-/// The values of grips that a device has to sense: up to the last that no button closes.
+/// The number of grip values that a device has to sense: up to the last that no button closes.
 [[nodiscard]] int grips_of_device(const DeviceMapping& mapping);
 
 /// Opens the device.
 ///
-/// @param hand  of a simulated one
+/// @param hand  options of a simulated hand
 /// @throws std::runtime_error  where a service does not answer; names its address and the mend
 [[nodiscard]] std::unique_ptr<Device> open_device(const DeviceChoice& choice,
                                                   const SimulatedOperatorOptions& hand);

@@ -12,8 +12,8 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr std::int64_t kPictureNs = 16'000'000;  // Between pictures: 60 a second.
-constexpr double kStill = 1.0;                   // [s]  Of the page, in which nothing moves.
+constexpr std::int64_t kPictureNs = 16'000'000;  // Time between pictures: 60 a second.
+constexpr double kStill = 1.0;                   // [s]  Time of the page in which nothing moves.
 
 std::string numbers(const Pose& pose) {
   const auto& [p, q] = pose;
@@ -42,7 +42,7 @@ std::string HapticLive::page(const RunHeader& header, std::string_view page_temp
   RunStep step{.index = 1, .time = kStill, .lasted = kStill};
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     std::optional<Pose> pose = poses_[k];
-    if (k >= first_link_) {  // A link begins where its body stands.
+    if (k >= first_link_) {  // A link begins at its body.
       pose = std::get<FixedMotion>(header.scene.bodies[setup_.bodies[k]].motion).pose;
     }
     if (pose) {
@@ -92,7 +92,8 @@ bool HapticLive::is_due(const ForceTick& tick) const {
   return shown_ns_ == 0 || tick.time_ns - shown_ns_ >= kPictureNs;
 }
 
-/// Where the page begins to drag: before its first pose, where the mapping has the handle.
+/// The pose at which the page begins to drag: the mapping has the handle there before its first
+/// pose.
 Pose HapticLive::handle(const ToolTick& tool) const {
   return tool.device.status == DeviceStatus::waiting ? setup_.options.mappings[tool_].X_DH
                                                      : tool.device.X_DH;

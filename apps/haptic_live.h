@@ -1,5 +1,5 @@
 /// @file
-/// The live view of a haptic session: its page, and what that page is sent.
+/// The live view of a haptic session: its page, and the messages for it.
 
 #pragma once
 
@@ -17,14 +17,14 @@
 
 namespace firstcontact::app {
 
-/// Gathers what there is to see: poses, contacts and forces. One tool follows the mouse.
+/// Collects the data of the view: poses, contacts and forces. One tool follows the mouse.
 class HapticLive {
  public:
-  /// @param setup  lives as long as this
+  /// @param setup  lives as long as this object
   /// @param tool   its number
   HapticLive(const HapticSetup& setup, std::size_t tool);
 
-  /// The viewer's page, of bodies that stand until messages move them.
+  /// The viewer's page, with bodies at rest until messages move them.
   [[nodiscard]] std::string page(const RunHeader& header, std::string_view page_template) const;
 
   void take(const HapticCycle& cycle);
@@ -43,7 +43,7 @@ class HapticLive {
   const HapticSetup& setup_;
   std::size_t tool_;
   std::vector<std::optional<Pose>> poses_;  // X_WB of tools, and of members that move.
-  std::size_t first_link_ = 0;              // Of the members.
+  std::size_t first_link_ = 0;              // Index of the first link among the members.
   std::vector<HapticTouch> touches_;
   std::int64_t shown_ns_ = 0;
 };

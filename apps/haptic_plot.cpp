@@ -13,7 +13,7 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr std::int64_t kColumns = 1200;  // At most.
+constexpr std::int64_t kColumns = 1200;  // Most columns.
 constexpr double kPlotWidth = 900.0;     // [px]
 constexpr double kPanel = 130.0;
 constexpr double kBetween = 34.0;
@@ -25,7 +25,7 @@ constexpr std::array<const char*, kMostTools> kColours{"#1f5fa8", "#c0392b"};
 /// One quantity of each column.
 struct HapticPanel {
   std::string label;
-  std::string note;  // Behind the unit.
+  std::string note;  // Text behind the unit.
   Unit unit;
   std::size_t curves;
   std::function<double(std::size_t column, std::size_t curve)> value;
@@ -39,7 +39,9 @@ std::string plain(std::string_view text) {
   return out;
 }
 
-/// @param end  [columns]  At the right end of the panel.
+/// Draws a panel.
+///
+/// @param end  [columns]  at the right end of the panel
 std::string draw_panel(const HapticPanel& panel, std::size_t columns, double end, double top) {
   double greatest = 0.0;
   for (std::size_t k = 0; k < columns; ++k) {
@@ -100,7 +102,7 @@ HapticPlot::Column& HapticPlot::column_at(std::int64_t time_ns) {
   }
   const auto place = static_cast<std::size_t>(time_ns / column_ns_);
   if (place >= columns_.size()) {
-    // What lies between two ticks is as it was.
+    // Between two ticks the values stay.
     columns_.resize(place, columns_.empty() ? Column{} : columns_.back());
     columns_.emplace_back();
   }

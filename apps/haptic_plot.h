@@ -14,13 +14,14 @@
 
 namespace firstcontact::app {
 
-/// Gathers ticks in columns, of which each keeps its greatest values: no peak is lost. Columns
-/// become wider as time goes by.
+/// Collects ticks in columns.
+///
+/// Each column keeps its greatest values, so that no peak is lost. Columns become wider with time.
 class HapticPlot {
  public:
   explicit HapticPlot(std::size_t tools) : tools_(tools) {}
 
-  /// @param god_objects  where they are, one for each tool
+  /// @param god_objects  their poses, one for each tool
   void add(const ForceTick& tick, std::int64_t begin_ns,
            const std::array<Pose, kMostTools>& god_objects);
 
@@ -33,7 +34,7 @@ class HapticPlot {
   struct Column {
     std::array<double, kMostTools> force = {};   // [N]
     std::array<double, kMostTools> torque = {};  // [N m]
-    std::array<double, kMostTools> apart = {};   // [m]  From target to god-object.
+    std::array<double, kMostTools> apart = {};   // [m]  Distance from target to god-object.
     double contacts = 0.0;
 
     void take(const Column& other);

@@ -74,7 +74,7 @@ void HapticReport::add(const ForceTick& tick, std::size_t tools) {
   ++ticks_;
   for (std::size_t k = 0; k < tools; ++k) {
     const ToolTick& tool = tick.tools[k];
-    // Also what the device does not drive.
+    // Also forces that the device does not drive.
     force_ = std::max(force_, tool.asked.force_D.norm());
     torque_ = std::max(torque_, tool.asked.torque_D.norm());
     faults_ |= tool.faults;

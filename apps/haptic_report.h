@@ -1,5 +1,5 @@
 /// @file
-/// What a haptic session did, in words.
+/// A report in words on a haptic session.
 
 #pragma once
 
@@ -25,9 +25,9 @@ class HapticReport {
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
   [[nodiscard]] double time_lost() const { return time_lost_; }  ///< [s]
 
-  /// The lines for the standard output.
+  /// Returns the lines for the standard output.
   ///
-  /// @param undriven  "the mouse drives none of it", in which forces end; may be empty
+  /// @param undriven  a note behind the forces, "the mouse drives none of it"; may be empty
   /// @param wall  none in virtual time
   [[nodiscard]] std::string text(const std::string& scene, bool is_stopped,
                                  const std::string& undriven,
@@ -41,17 +41,18 @@ class HapticReport {
   double clearance_ = std::numeric_limits<double>::infinity();  // [m]
   double time_lost_ = 0.0;                                      // [s]
   std::size_t contacts_ = 0;
-  std::uint64_t touching_ = 0;    // Cycles that ended with contacts.
-  std::uint64_t unfinished_ = 0;  // Cycles that could have gained more.
+  std::uint64_t touching_ = 0;    // Number of cycles that ended with contacts.
+  std::uint64_t unfinished_ = 0;  // Number of cycles that could have gained more.
   std::uint32_t faults_ = 0;
-  double effort_ = 0.0;  // [J]  On a grip.
+  double effort_ = 0.0;  // [J]  Effort on a grip.
   bool has_joints_ = false;
 };
 
-/// "the mouse drives none of it", or "the inverse3 drives no torque"; empty where it drives both.
+/// The efforts that a device does not drive: "the mouse drives none of it", or "the inverse3 drives
+/// no torque"; empty where it drives both.
 [[nodiscard]] std::string undriven_text(const Device& device);
 
-/// Describes a device that a hand moved: its name, its samples, and why it is lost if it is.
+/// Describes a device that a hand moved: its name, its samples, and the reason of a loss.
 [[nodiscard]] std::string device_text(const Device& device);
 
 }  // namespace firstcontact::app

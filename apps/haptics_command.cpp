@@ -72,11 +72,11 @@ std::vector<OutputFile> outputs_of(const Arguments& arguments) {
           {"--plot", arguments.plot},     {"--html", arguments.page}};
 }
 
-/// What the devices are, before they are opened.
+/// The devices before they are opened.
 struct NamedDevices {
   std::vector<DeviceChoice> choices;
   double duration = kDuration;  // [s]  Of the longest recording, if any: its last sample is held.
-  bool on_the_wall = false;     // Asked for, or because a hand moves one of them.
+  bool on_the_wall = false;     // By request, or because a hand moves one of them.
 };
 
 NamedDevices read_devices(const Arguments& arguments) {
@@ -110,7 +110,7 @@ NamedDevices read_devices(const Arguments& arguments) {
   return named;
 }
 
-/// A hand that knows nothing of the scene: it wants to be anywhere around the tool.
+/// The options of a hand that knows nothing of the scene: it goes anywhere around the tool.
 SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const HapticTool& tool,
                                         const DeviceMapping& mapping, double duration,
                                         std::size_t number) {
@@ -144,7 +144,7 @@ class HapticsRun {
     }
     open_devices();
     if (!arguments.page.empty() || mouse_ != nullptr) {
-      template_ = viewer_page();  // Missing is better known before the work than after it.
+      template_ = viewer_page();  // A missing viewer is reported before the work.
     }
   }
 
@@ -215,7 +215,7 @@ class HapticsRun {
     }
   }
 
-  /// A button that the device lacks would never be pressed, and the tool never felt.
+  /// Requires that the device has the buttons of the tool, which would otherwise never be pressed.
   void require_buttons(std::size_t tool) const {
     const DeviceMapping& mapping = setup_.options.mappings[tool];
     const DeviceCapabilities& device = devices_[tool]->capabilities();
@@ -235,7 +235,7 @@ class HapticsRun {
     }
   }
 
-  /// A grip that the device does not sense would never close.
+  /// Requires that the device senses the grips of the tool, which would otherwise never close.
   void require_grips(std::size_t tool) const {
     const int needed = grips_of_device(setup_.options.mappings[tool]);
     const DeviceCapabilities& device = devices_[tool]->capabilities();
@@ -259,7 +259,7 @@ class HapticsRun {
     drawing_.emplace(arguments_.plot);
     timing_.emplace(arguments_.timing);
     page_file_.emplace(arguments_.page);
-    // Last: what cannot be written elsewhere leaves no run behind.
+    // Last: if another output cannot be written, no run is left behind.
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(),
                                        arguments_.force ? HeldRun::replaced : HeldRun::kept));
@@ -369,7 +369,7 @@ class HapticsRun {
     }
   }
 
-  /// What the devices that hands move do not drive.
+  /// The efforts that devices in a hand do not drive.
   [[nodiscard]] std::string undriven() const {
     std::vector<std::string> texts;
     for (std::size_t k = 0; k < devices_.size(); ++k) {
@@ -407,7 +407,7 @@ class HapticsRun {
     flush_stdout();
   }
 
-  const Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  const Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
   const Arguments& arguments_;
   NamedDevices named_;
@@ -418,11 +418,11 @@ class HapticsRun {
   std::array<Pose, kMostTools> god_objects_ = {};
   std::optional<HapticRun> record_;
   std::optional<RunPage> page_;
-  std::string template_;  // Of the page.
+  std::string template_;  // Template of the page.
   std::optional<RunFile> run_file_;
   std::optional<BegunFile> ticks_;
   std::optional<BegunFile> cycles_;
-  // These are written at the end, but what cannot be written is better known before the session.
+  // These are written at the end; errors of writing are reported before the session.
   std::optional<BegunFile> drawing_;
   std::optional<BegunFile> timing_;
   std::optional<BegunFile> page_file_;
@@ -430,8 +430,8 @@ class HapticsRun {
   std::int64_t begin_ns_ = 0;
   HapticReport report_;
   std::optional<WallSessionReport> wall_;
-  BrowserDevice* mouse_ = nullptr;  // One of them, if any.
-  std::optional<HapticLive> live_;  // With the mouse.
+  BrowserDevice* mouse_ = nullptr;  // One of the devices, if any.
+  std::optional<HapticLive> live_;  // Only with the mouse.
   bool is_stopped_ = false;
 };
 

@@ -11,7 +11,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// In the order of their names, as sets of options are in that of their addresses.
+/// The names of options in alphabetical order, as a set of options has that of their addresses.
 std::string names_of(const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) {
@@ -20,8 +20,8 @@ std::string names_of(const std::set<CLI::Option*>& options) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// What an option takes: "FILE", "N", or the words that it knows, as "stop|blend". Empty for what
-/// has its name alone.
+/// The value of an option: "FILE", "N", or its words as "stop|blend"; empty for an option without
+/// one.
 std::string value_name(const CLI::Option& option) {
   const std::string type = option.get_type_name();  // With checks: "TEXT:{stop,blend}".
   const std::size_t colon = type.find(':');

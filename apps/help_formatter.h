@@ -1,5 +1,5 @@
 /// @file
-/// How the help of a command writes its options.
+/// The text of options in the help of a command.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace firstcontact::app {
 
-/// The options that an option needs or excludes stand in its text, as sentences do.
+/// Writes options; those that an option needs or excludes appear in its text, as sentences.
 class HelpFormatter : public CLI::Formatter {
  public:
   [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override;

@@ -31,7 +31,7 @@ void line(const char* label, const std::string& value) {
   say(fmt::format("  {:<22} {}\n", label, visible(value)));
 }
 
-/// Silent where there is nothing unusual.
+/// Prints a count; silent for 0.
 void count(const char* label, std::size_t number) {
   if (number > 0) {
     line(label, fmt::format("{}", number));
@@ -46,13 +46,13 @@ std::string surface(const MeshDefects& found) {
                                      : "closed, not consistently oriented";
 }
 
-/// Without a sign on zero.
+/// A point as text, without a sign on zero.
 std::string point(Eigen::Vector3d p) {
   p += Eigen::Vector3d::Zero();
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-/// What lengths are taken for, and whether they are likely to be so.
+/// Prints the unit of lengths, and whether the size is likely in it.
 void print_unit(const FileReport& report, double size) {
   constexpr double kImplausible = 100.0;  // [m]
   line("unit", report.unit.empty() ? "none in the file: metres are taken" : report.unit);
@@ -72,7 +72,7 @@ void print_bounds(const Eigen::AlignedBox3d& bounds, const FileReport& report) {
   print_unit(report, size.maxCoeff());
 }
 
-/// What became of the file.
+/// Prints the report on the file.
 void print_report(const FileReport& report) {
   line("format", report.format);
   if (const std::string left_out = left_out_text(report); !left_out.empty()) {
@@ -128,7 +128,7 @@ bool can_read_points(const std::string& file, const ReadingOptions& options) {
   }
 }
 
-/// Only PLY files may be either.
+/// Whether a file is a cloud; only PLY files may be either.
 bool is_cloud(const std::string& file, const ReadingOptions& options) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension != ".ply" && extension != ".PLY") {
@@ -144,7 +144,7 @@ bool is_cloud(const std::string& file, const ReadingOptions& options) {
 
 bool is_robot(const std::string& file) { return detail::file_extension(file) == "urdf"; }
 
-/// Other names are those of no mesh, cloud or robot.
+/// Requires the name of a mesh, cloud or robot.
 void require_mesh(const std::string& file) {
   const std::string ending = detail::file_extension(file);
   constexpr std::array kMeshes{"obj", "stl", "ply", "off", "dae", "glb", "gltf"};

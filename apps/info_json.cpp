@@ -21,13 +21,13 @@ Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()
 
 Json to_json(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
-/// Null where there is nothing inside.
+/// Writes a box; null for an empty one.
 Json to_json(const Eigen::AlignedBox3d& box) {
   return box.isEmpty() ? Json()
                        : Json{{"lower", to_json(box.min())}, {"upper", to_json(box.max())}};
 }
 
-/// On one line, whatever bytes a file has for names.
+/// Writes an object on one line, whatever bytes a file has for names.
 std::string line_of(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,5 +1,5 @@
 /// @file
-/// What `info` says, as JSON: one line for each file.
+/// The output of `info` as JSON: one line for each file.
 
 #pragma once
 
@@ -12,12 +12,16 @@
 
 namespace firstcontact::app {
 
-/// @returns  with the line feed, as all here
+/// Writes the report on a mesh.
+///
+/// @returns a line with its line feed, as all functions here
 [[nodiscard]] std::string mesh_json(const std::string& file, const MeshReading& reading,
                                     const MeshDefects& found);
 
 [[nodiscard]] std::string points_json(const std::string& file, const PointReading& cloud);
 
+/// Writes the report on a robot.
+///
 /// @param reading  with collision shapes
 [[nodiscard]] std::string robot_json(const std::string& file, const RobotReading& reading);
 

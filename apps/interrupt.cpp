@@ -14,7 +14,8 @@ void watch(const std::stop_token& over, const sigset_t& signals, std::stop_sourc
       return;
     }
     if (!first) {
-      std::_Exit(128 + signal);  // What the shell says of a process that a signal ended.
+      std::_Exit(128 + signal);  // The status that the shell reports for a process that a signal
+                                 // ended.
     }
     source.request_stop();
   }

@@ -9,10 +9,10 @@
 
 namespace firstcontact::app {
 
-/// While it lives, the first SIGINT or SIGTERM stops the work through a token, so that it ends
-/// with what is proven so far; the second ends the process at once.
+/// Stops the work through a token on the first SIGINT or SIGTERM, during its lifetime.
 ///
-/// Make it before other threads: they inherit that the signals wait for this.
+/// The work then ends with what is proven so far. The second signal ends the process at once. Make
+/// it before other threads: they inherit the block of these signals.
 class Interrupt {
  public:
   Interrupt();

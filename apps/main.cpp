@@ -25,7 +25,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// Errors are one line, wherever they come from.
+/// Prints an error on one line, wherever it comes from.
 void complain(std::string message) {
   for (char& c : message) {
     c = c == '\n' || c == '\r' ? ' ' : c;
@@ -37,7 +37,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string>& 
   return detail::nearest_word(word, {known.begin(), known.end()});
 }
 
-/// "; did you mean --margin?", of an option that the command does not have.
+/// Suggests an option in place of an unknown one: "; did you mean --margin?".
 std::string meant_option(const CLI::App& command) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options()) {
@@ -54,7 +54,7 @@ std::string meant_option(const CLI::App& command) {
   return {};
 }
 
-/// With the help to look at: that of the command, where the first argument is one.
+/// Describes an error, with the help to read: that of the command, where the first argument is one.
 std::string describe(const CLI::ParseError& error, const CLI::App& app, const std::string& first) {
   const auto is_first = [&first](const CLI::App* command) { return command->get_name() == first; };
   if (const auto found = app.get_subcommands(is_first); !found.empty()) {
@@ -79,12 +79,12 @@ ExitStatus run(int argc, char** argv) {
                "firstcontact");
   app.set_version_flag("--version", std::string("firstcontact ") + version());
   app.require_subcommand(1);
-  app.formatter(std::make_shared<HelpFormatter>());  // The commands take it over.
+  app.formatter(std::make_shared<HelpFormatter>());  // The commands inherit it.
   add_commands(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {  // Help or version was asked for.
+    if (error.get_exit_code() == 0) {  // For help or version.
       app.exit(error);
       flush_stdout();
       return kSuccess;

@@ -23,9 +23,9 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr double kPlayed = 8.0;  // [s]  Of a path without times.
+constexpr double kPlayed = 8.0;  // [s]  Duration of a path without times.
 
-/// The way of an edge: of a body its translation and, to look at, a tenth of its turn.
+/// The length of an edge; for a body its translation and, for viewing, a tenth of its turn.
 double way_of(const PlannedPath& path, const std::vector<double>& a, const std::vector<double>& b) {
   if (path.body.empty()) {
     double way = 0.0;
@@ -60,7 +60,7 @@ Named& named(std::vector<Named>& all, const std::string& name) {
   return *std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
 }
 
-/// Without places that follow another one at the same time.
+/// Leaves out places that follow another one at the same time.
 template <typename Place>
 void append(std::vector<double>& times, std::vector<Place>& places, double time, Place place) {
   if (times.empty() || time > times.back()) {

@@ -14,8 +14,9 @@
 namespace firstcontact::app {
 namespace {
 
-/// Whether a write to one would change the other. Pipes and devices, such as /dev/null, hold
-/// nothing that could be lost.
+/// Whether a write to one would change the other.
+///
+/// Pipes and devices, such as /dev/null, hold nothing that could be lost.
 bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   const auto status = std::filesystem::status(a, error);

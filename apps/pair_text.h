@@ -1,5 +1,5 @@
 /// @file
-/// Which pairs an answer is about, as people read it on a terminal.
+/// The pairs of an answer as text for a terminal.
 
 #pragma once
 
@@ -16,14 +16,14 @@ struct LabelledLine {
   std::string value;
 };
 
-/// "tested", "ignored" and "left out" with how many, by whom and which.
+/// The lines "tested", "ignored" and "left out", with numbers, reasons and names.
 [[nodiscard]] std::vector<LabelledLine> pair_lines(const PairCounts& counts);
 
-/// Those lines of a second proof, its warnings, and one where no pair is tested.
+/// The last lines of a second proof: its pairs, its warnings, and one where no pair is tested.
 [[nodiscard]] std::vector<LabelledLine> last_proof_lines(const PairCounts& counts,
                                                          const std::vector<std::string>& warnings);
 
-/// "none of the 3 pairs that were looked at interpenetrates at any time"
+/// The outcome as text: "none of the 3 pairs that were looked at interpenetrates at any time".
 [[nodiscard]] std::string no_penetration_text(const PairCounts& counts);
 
 }  // namespace firstcontact::app

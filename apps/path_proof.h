@@ -1,5 +1,5 @@
 /// @file
-/// The second proof of a planned path, and its answer as people read it.
+/// The second proof of a planned path, and its answer as text for a terminal.
 
 #pragma once
 
@@ -13,9 +13,9 @@ namespace firstcontact::app {
 
 class Progress;
 
-/// Proves a planned path again, and prints what was found.
+/// Proves a planned path again, and prints the findings.
 ///
-/// @param text  of the file
+/// @param text  text of the file
 /// @throws ParseError where it holds something else, or a file has changed
 [[nodiscard]] ExitStatus prove_path(const ProofArguments& arguments, const std::string& text,
                                     Progress& progress, const std::stop_token& stop);

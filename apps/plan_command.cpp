@@ -36,7 +36,8 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 53) - 1;  // That JSON keeps.
+constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 53) - 1;  // Greatest seed that JSON
+                                                                      // keeps.
 constexpr std::size_t kListedPairs = 3;
 
 struct Arguments {
@@ -57,7 +58,7 @@ struct Arguments {
   int threads = 0;
 };
 
-/// The work, of which all that is wrong with the question names the file that holds it.
+/// Does the work; errors of the question name the file that holds it.
 template <class Work>
 auto in_file(const std::string& source, const Work& work) {
   try {
@@ -78,7 +79,7 @@ class Plan {
     require_no_input(outputs_, {inputs.begin(), inputs.end()});
     require_no_input(outputs_, {arguments.scene});
     if (!arguments.page.empty()) {
-      viewer_ = viewer_page();  // Missing is better known before the work than after it.
+      viewer_ = viewer_page();  // A missing viewer is reported before the work.
     }
   }
 
@@ -192,7 +193,7 @@ class Plan {
            member_name(scene.loaded.scene, pair[1]);
   }
 
-  /// [s]  From then on the mover is at the goal.
+  /// [s]  The time from which on the mover is at the goal.
   [[nodiscard]] static double arrival(const PlannedPath& path) {
     std::size_t last = path.waypoints.size() - 1;
     while (last > 0 && path.waypoints[last - 1] == path.waypoints.back()) {
@@ -212,7 +213,7 @@ class Plan {
     return text.empty() ? "nothing" : text;
   }
 
-  /// A pair that is in contact at an end, and what is proven of it.
+  /// Describes a pair that is in contact at an end, and its proof.
   [[nodiscard]] static std::string contact_text(const NamedContactPair& one) {
     return fmt::format("{} and {} at the {} ({}): apart by {} or more (proven)", one.pair[0],
                        one.pair[1], kPathEndWords.at(static_cast<std::size_t>(one.at)),
@@ -295,12 +296,12 @@ class Plan {
     return text;
   }
 
-  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
   const Arguments& arguments_;
   std::string source_;
   std::vector<OutputFile> outputs_;
-  std::string viewer_;  // Where a page is wanted.
+  std::string viewer_;  // Only where a page is wanted.
 };
 
 void require_one_plan(const Arguments& arguments) {

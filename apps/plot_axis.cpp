@@ -23,7 +23,7 @@ double round_step(double length) {
 }  // namespace
 
 PlotAxis make_axis(double greatest, Unit unit, AxisEnd end) {
-  constexpr double kRounding = 1e-9;  // Of a step: what the quotients may be off.
+  constexpr double kRounding = 1e-9;  // [-]  Error of the quotients, by a step.
   const double length = greatest > 0.0 ? greatest / unit.size : 1.0;
   const double step = round_step(length);
   const double steps = end == AxisEnd::at_tick ? std::ceil(length / step - kRounding)
@@ -36,7 +36,7 @@ PlotAxis make_axis(double greatest, Unit unit, AxisEnd end) {
 }
 
 std::string plot_title(std::string_view title, double width) {
-  constexpr double kWidest = 10.7;  // [px]  Of a letter, in the mean of capitals.
+  constexpr double kWidest = 10.7;  // [px]  Width of a letter, in the mean of capitals.
   const auto is_begin = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
   const auto most = static_cast<std::ptrdiff_t>(width / kWidest);
   if (std::ranges::count_if(title, is_begin) <= most) {

@@ -71,7 +71,7 @@ class Description {
 
   [[nodiscard]] std::string seconds(double t) const { return time_text(t * scene_.duration); }
 
-  /// "arm/tip: triangle 7", and of which geometry where a link has several.
+  /// The place of a feature: "arm/tip: triangle 7", with the geometry where a link has several.
   [[nodiscard]] std::string place(std::size_t member, const Feature& feature,
                                   std::size_t geometry) const {
     const std::string text = name(member) + ": " + feature_text(feature);
@@ -87,7 +87,7 @@ class Description {
     print("      {}\n", contact_text(found, scene_.duration));
   }
 
-  /// Those of every pair that touches at the scene's time.
+  /// Writes the contacts of every pair that touches at the scene's time.
   void contacts() {
     std::size_t count = 0;
     ContactCount all{0, true};
@@ -115,7 +115,7 @@ class Description {
     }
   }
 
-  /// The enclosure error of the pair that decides, or else of all.
+  /// Writes the enclosure error of the pair that decides, or else of all.
   void enclosure() {
     const double error =
         result_.first ? result_.pairs[*result_.first].enclosure_error : result_.enclosure_error;
@@ -124,7 +124,7 @@ class Description {
     }
   }
 
-  /// The turns of continuous joints, whose numbers leave it open which way they go.
+  /// Writes the turns of continuous joints, as their numbers leave the way open.
   void turns() {
     for (const SceneRobot& robot : scene_.robots) {
       for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {

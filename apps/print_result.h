@@ -1,5 +1,5 @@
 /// @file
-/// An answer as people read it on a terminal.
+/// An answer as text for a terminal.
 
 #pragma once
 
@@ -14,25 +14,25 @@ namespace firstcontact::app {
 
 struct DescribeOptions {
   bool all_pairs = false;  ///< Also a line for each pair.
-  bool explain = false;    ///< Also what became of each file.
+  bool explain = false;    ///< Also the report on each file.
 };
 
-/// Verdict, time, bodies, features, clearance and which pairs were tested, in a few lines.
+/// Describes an answer in a few lines: verdict, time, bodies, features, clearance and tested pairs.
 ///
 /// @param title  names the scene
 [[nodiscard]] std::string describe(std::string_view title, const SceneAnswer& answer,
                                    const DescribeOptions& options);
 
-/// Which pairs were tested, and the first warnings.
+/// The last lines of an answer: the tested pairs, and the first warnings.
 [[nodiscard]] std::vector<LabelledLine> last_lines(const SceneAnswer& answer);
 
 /// The verdict and its time: "contact at t = 0.25 (12.5 ms)".
 [[nodiscard]] std::string describe_verdict(const SceneAnswer& answer);
 
-/// What sampling saw; empty where nobody asked.
+/// The findings of sampling; empty where it was not asked for.
 [[nodiscard]] std::string describe_sampling(const SceneAnswer& answer);
 
-/// The first warnings, and how many more there are.
+/// The first warnings, and the number of the others.
 [[nodiscard]] std::vector<std::string> told_warnings(const LoadedScene& loaded);
 
 }  // namespace firstcontact::app

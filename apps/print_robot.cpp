@@ -25,7 +25,7 @@ void line(const char* label, const std::string& value) {
   say(fmt::format("  {:<22} {}\n", label, visible(value)));
 }
 
-/// "7 revolute, 2 fixed"
+/// The joints as text: "7 revolute, 2 fixed".
 std::string joint_counts(const RobotModel& robot) {
   std::map<JointType, std::size_t> counts;
   for (const Joint& joint : robot.joints()) {
@@ -46,7 +46,7 @@ std::size_t coordinates(const RobotModel& robot) {
   return count;
 }
 
-/// "link3.stl (200 triangles), sphere"
+/// The collision geometry as text: "link3.stl (200 triangles), sphere".
 std::string collision_text(const Link& link) {
   std::string text;
   for (const LinkGeometry& geometry : link.collision) {
@@ -59,12 +59,12 @@ std::string collision_text(const Link& link) {
   return text.empty() ? "no collision geometry" : text;
 }
 
-/// "1.5 kg"
+/// A mass as text: "1.5 kg".
 std::string mass_text(const Link& link) {
   return link.inertia ? fmt::format("{:.6g} kg", link.inertia->mass) : "no mass";
 }
 
-/// "1.5 kg, of 6 of 7 links"
+/// The total mass as text: "1.5 kg, of 6 of 7 links".
 std::string total_text(const RobotModel& robot) {
   const RobotMass mass = mass_of(robot);
   const std::size_t count = robot.links().size();
@@ -75,7 +75,7 @@ std::string total_text(const RobotModel& robot) {
          (mass.missing == 0 ? "" : fmt::format(", of {} of {} links", count - mass.missing, count));
 }
 
-/// ", -2.9 ... 2.9 rad, up to 2.2 rad/s"
+/// The limits as text: ", -2.9 ... 2.9 rad, up to 2.2 rad/s".
 std::string limit_text(const Joint& joint) {
   const char* unit = joint.type == JointType::prismatic ? "m" : "rad";
   std::string text;
@@ -92,8 +92,9 @@ std::string limit_text(const Joint& joint) {
   return text;
 }
 
-/// Two blanks for each link above. Of long chains the number of links above stands in their place,
-/// as blanks would be most of the text.
+/// Two blanks for each link above.
+///
+/// In long chains the number of links above takes their place, as blanks would be most of the text.
 std::string indent(std::size_t depth) {
   constexpr std::size_t kMost = 40;
   return depth <= kMost ? std::string(2 * depth, ' ')
@@ -106,7 +107,7 @@ void print_links(const RobotModel& robot,
     std::size_t link;
     std::size_t depth;
   };
-  std::vector<Open> open = {{root, 0}};  // Not by recursion: a chain may be long.
+  std::vector<Open> open = {{root, 0}};  // Not by recursion, as a chain may be long.
   while (!open.empty()) {
     const Open at = open.back();
     open.pop_back();
@@ -136,7 +137,7 @@ void print_tree(const RobotModel& robot) {
   print_links(robot, joints, robot.root());
 }
 
-/// "open edges 12, degenerate triangles 3"; empty for a sound mesh.
+/// The remarks on a mesh: "open edges 12, degenerate triangles 3"; empty for a sound mesh.
 std::string mesh_remarks(const Mesh& mesh) {
   const MeshDefects found = inspect(mesh);
   std::string text;

@@ -1,5 +1,5 @@
 /// @file
-/// What `info` says of a robot.
+/// The output of `info` for a robot.
 
 #pragma once
 
@@ -12,23 +12,23 @@
 
 namespace firstcontact::app {
 
-/// What the links of a robot weigh.
+/// The masses of a robot's links.
 struct RobotMass {
-  double total = 0.0;       ///< [kg]  Of the links whose mass is given.
-  std::size_t missing = 0;  ///< Links without one.
+  double total = 0.0;       ///< [kg]  Sum over the links whose mass is given.
+  std::size_t missing = 0;  ///< Number of links without a mass.
 };
 [[nodiscard]] RobotMass mass_of(const RobotModel& robot);
 
-/// "mesh", "box", "sphere", "cylinder" or "capsule".
+/// The kind of a geometry: "mesh", "box", "sphere", "cylinder" or "capsule".
 [[nodiscard]] const char* geometry_kind(const LinkGeometry& geometry);
 
-/// What is unusual about a robot.
+/// Describes unusual properties of a robot.
 ///
 /// @param robot  read with its collision shapes
 [[nodiscard]] std::vector<std::string> robot_remarks(const RobotModel& robot);
 
-/// Prints counts, masses, the tree with limits and collision geometry, what is unusual about it,
-/// and what became of its files.
+/// Prints counts, masses, the tree with limits and collision geometry, remarks, and the reports on
+/// files.
 ///
 /// @param reading  with collision shapes
 void print_robot(const std::string& name, const RobotReading& reading);

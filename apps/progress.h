@@ -1,5 +1,5 @@
 /// @file
-/// Says on a terminal what takes long.
+/// Shows long work on a terminal.
 
 #pragma once
 
@@ -11,8 +11,9 @@
 
 namespace firstcontact::app {
 
-/// One line on stderr with what is being done and for how long; it begins after a second and is
-/// wiped out in the end. Silent where stderr is no terminal.
+/// One line on stderr with the present work and its duration.
+///
+/// It begins after a second and is erased in the end. It is silent where stderr is no terminal.
 class Progress {
  public:
   Progress();
@@ -21,10 +22,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What is being done now. From any thread.
+  /// Sets the name of the present work. May be called by any thread.
   void doing(std::string text);
 
-  /// Prints a line on stderr in the place of the one that is shown. From any thread.
+  /// Prints a line on stderr in place of the present one. May be called by any thread.
   void say(std::string_view line);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What `firstcontact verify` asks of every kind of file.
+/// The arguments of `firstcontact verify` for every kind of file.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace firstcontact::app {
 
 struct ProofArguments {
-  std::string file;   ///< To be proven.
-  std::string scene;  ///< That the file is to be of; may be empty.
+  std::string file;   ///< File to be proven.
+  std::string scene;  ///< Scene that the file has to be of; may be empty.
   bool json = false;
   bool lenient = false;
   int threads = 0;

@@ -16,7 +16,7 @@ constexpr std::array<Unit, 4> kTimes{{{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {
 constexpr std::array<Unit, 4> kImpulses{
     {{"kN s", 1e3}, {"N s", 1.0}, {"mN s", 1e-3}, {"µN s", 1e-6}}};
 
-/// The largest unit of which there is at least one; the base unit for 0, the smallest below all.
+/// The largest unit of which there is at least one; the base unit for 0, the smallest for less.
 Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
   const double size = std::abs(quantity);
   if (!(size > 0.0)) {
@@ -30,13 +30,13 @@ Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
   return units.back();
 }
 
-/// With the four digits that in_unit() shows, so that 999.99 µm are 1 mm.
+/// A quantity rounded to the four digits of in_unit(), so that 999.99 µm are 1 mm.
 double rounded(double quantity) {
   return std::isfinite(quantity) ? std::stod(fmt::format("{:.3e}", quantity)) : quantity;
 }
 
 std::string in_unit(double quantity, Unit unit) {
-  constexpr double kShown = 1e-3;  // What is less, of the smallest unit, is rounding.
+  constexpr double kShown = 1e-3;  // Less than this, in the smallest unit, is rounding.
   if (quantity > 0.0 && quantity < kShown * unit.size) {
     return fmt::format("below {:g} {}", kShown, unit.name);
   }
@@ -57,7 +57,7 @@ std::string lower_bound_text(double metres) {
   }
   const Unit unit = length_unit(metres);
   const double quantity = metres / unit.size;
-  // One unit of the last of four digits less is enough, as the nearest text is off by half of one.
+  // One unit of the last of four digits is taken off, as the nearest text is off by half of one.
   const double digit = std::pow(10.0, std::floor(std::log10(quantity)) - 3.0);
   const std::string nearest = in_unit(metres, unit);
   return std::stod(fmt::format("{:.4g}", quantity)) > quantity
@@ -87,7 +87,7 @@ std::string plain_number(double number) {
 }
 
 std::string direction_text(const Eigen::Vector3d& direction) {
-  // Without a sign on what is rounded to zero.
+  // Without a sign on numbers that round to zero.
   const Eigen::Vector3d rounded = (direction * 1e3).array().round() / 1e3 + 0.0;
   return fmt::format("({:6.3f}, {:6.3f}, {:6.3f})", rounded.x(), rounded.y(), rounded.z());
 }

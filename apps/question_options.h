@@ -1,5 +1,5 @@
 /// @file
-/// The options of the command line that ask the same of every scene.
+/// The options of the command line for the question about every scene.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace firstcontact::app {
 /// --all-contacts-in-time.
 void add_question_options(CLI::App& command, Question& question);
 
-/// "none", "first", "all" or a number: as on the command line.
+/// A choice of contacts as on the command line: "none", "first", "all" or a number.
 [[nodiscard]] std::string contacts_text(const ContactState& contacts);
 
 }  // namespace firstcontact::app

@@ -91,10 +91,10 @@ class ResultDescription {
   }
 
   [[nodiscard]] std::string contact() const {
-    const std::string pairs =
-        claims_.pairs && found_.contacts > 1
-            ? fmt::format("{} pairs, among them ", found_.contacts - 1)  // The first counts twice.
-            : "";
+    const std::string pairs = claims_.pairs && found_.contacts > 1
+                                  // The first counts twice.
+                                  ? fmt::format("{} pairs, among them ", found_.contacts - 1)
+                                  : "";
     return fmt::format("{}{} and {} at t: {}, {} allowed beyond the margin", pairs,
                        claims_.pair.value()[0], claims_.pair.value()[1],
                        at_most(*found_.contact_distance), length_text(found_.tolerance));
@@ -126,7 +126,7 @@ struct ResultLine {
   std::size_t line = 1;
 };
 
-/// One object over several lines, or one on each.
+/// The lines of a text: one object over several lines, or one on each.
 std::vector<ResultLine> lines_of(std::string_view text) {
   const std::size_t end = text.find('\n');
   if (provable_file(text.substr(0, end)) != ProvableFile::result) {

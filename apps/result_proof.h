@@ -1,5 +1,5 @@
 /// @file
-/// The second proof of the results in a file, and its answer as people read it.
+/// The second proof of the results in a file, and its answer as text for a terminal.
 
 #pragma once
 
@@ -13,9 +13,9 @@ namespace firstcontact::app {
 
 class Progress;
 
-/// Proves each result of a file again, and prints what was found. The status is the worst.
+/// Proves each result of a file again, and prints the findings. The status is the worst.
 ///
-/// @param text  of the file: one result, or one on each line
+/// @param text  text of the file: one result, or one on each line
 /// @throws ParseError where it holds something else, or a file has changed
 [[nodiscard]] ExitStatus prove_results(const ProofArguments& arguments, const std::string& text,
                                        Progress& progress, const std::stop_token& stop);

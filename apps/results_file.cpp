@@ -20,7 +20,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// Where the lines of a file end: just behind its last line feed.
+/// The end of the lines of a file: just behind its last line feed.
 std::uintmax_t end_of_lines(std::ifstream& file, std::uintmax_t size) {
   std::string block;
   constexpr std::uintmax_t kBlock = 1 << 16;
@@ -37,7 +37,7 @@ std::uintmax_t end_of_lines(std::ifstream& file, std::uintmax_t size) {
   return 0;
 }
 
-/// Says of which line of their origin two results differ.
+/// Describes the line of their origin in which two results differ.
 std::string first_difference(const std::string& was, const std::string& is) {
   std::istringstream old_lines(was);
   std::istringstream new_lines(is);
@@ -81,7 +81,7 @@ void ResultsFile::open() {
   if (!std::filesystem::is_regular_file(path_)) {
     fail("expected a plain file for the results, got something else");
   }
-  // The lock ends with the process, however that ends.
+  // The lock ends with the process, however the process ends.
   if (::flock(descriptor_.value, LOCK_EX | LOCK_NB) != 0) {
     fail("another batch is writing this file");
   }

@@ -1,5 +1,5 @@
 /// @file
-/// Results that survive the end of their writer, at whatever moment it comes.
+/// A file of results that survives the end of its writer at any moment.
 
 #pragma once
 
@@ -11,26 +11,26 @@
 
 namespace firstcontact::app {
 
-/// A file that grows by whole lines. Of a writer that was killed it holds all lines but the last
-/// ones, and perhaps a part of one; the next writer cuts that off and goes on.
+/// A file that grows by whole lines.
 ///
-/// Beside it, FILE.batch says what the lines are the results of, so that the next writer can tell
-/// whether it would write the same.
+/// After the end of a killed writer it holds all lines but the last ones, and perhaps a part of
+/// one. The next writer cuts that part off and goes on. Beside it, FILE.batch states the origin of
+/// the results. So the next writer can decide whether it would write the same.
 class ResultsFile {
  public:
-  /// Opens the file; nobody else can until it is closed.
+  /// Opens the file; no other process can until it is closed.
   ///
-  /// @param origin  what the results are of: a few lines of text
-  /// @param resume  go on with what is there, which must be of the same origin; otherwise the file
-  ///                must be empty or missing
+  /// @param origin  the origin of the results: a few lines of text
+  /// @param resume  whether to go on with the existing lines, which must have the same origin;
+  ///                otherwise the file must be empty or missing
   /// @throws std::runtime_error, one line that names the file
   ResultsFile(std::filesystem::path path, const std::string& origin, bool resume);
 
-  /// Visits the lines that were there already.
+  /// Visits the lines of earlier writers.
   void for_each_kept(
       const std::function<void(std::size_t number, const std::string&)>& visit) const;
 
-  /// Writes a line, at the end.
+  /// Writes a line at the end.
   void append(std::string_view line);
 
  private:

@@ -19,16 +19,16 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr std::size_t kMostBytes = 200'000'000;  // Browsers open texts of twice that.
+constexpr std::size_t kMostBytes = 200'000'000;  // Browsers open texts of twice this size.
 
-/// Whether the result can be played in the page.
+/// Adds a result; returns whether the page can play it.
 bool add(const std::string& line, const std::string& results, std::size_t number,
          const ReadingOptions& reading, ShapeCache& cache, ListPage& list) {
   if (read_summary(line, results, number).verdict && list.size() < kMostBytes) {
     try {
       list.add(line, load_scene(read_result(line, results, reading).scene, cache));
       return true;
-    } catch (const std::exception&) {  // Its files are gone, or changed.
+    } catch (const std::exception&) {  // Its files are gone, or have changed.
     }
   }
   list.add(line);

@@ -11,16 +11,17 @@
 
 namespace firstcontact::app {
 
-/// Reads results again, with the meshes of their scenes, and writes the page that lists them. Those
-/// that would make it larger than a browser opens are in the list, but cannot be played; nor can
-/// those whose meshes cannot be read any more.
+/// Reads results again, with the meshes of their scenes, and writes the page that lists them.
+///
+/// Some results are in the list, but cannot be played. With them the page would be larger than a
+/// browser opens, or their meshes cannot be read any more.
 ///
 /// @param results  the file of results, one in each line
 /// @param page     the file of the page
-/// @param reading  how files of the scenes are read
+/// @param reading  options of reading files of the scenes
 /// @param stop     ends the work early, without a page
 /// @param doing    called with the name of each part of the work
-/// @returns        a report in lines: the results that the page lists, but cannot play
+/// @returns a report in lines: the results that the page lists, but cannot play
 ///
 /// @throws std::runtime_error, one line, where the viewer is missing or a file cannot be read or
 ///         written

@@ -80,7 +80,7 @@ RetimingPath read_input(const Arguments& arguments) {
   return input;
 }
 
-/// @param model  of all robots that move
+/// @param model  the model of all robots that move
 std::vector<RateLimits> read_limits(const Arguments& arguments, const RetimingPath& input,
                                     const RobotModel& model) {
   const auto given = arguments.limits.empty() ? std::map<std::string, GivenLimits>{}
@@ -88,7 +88,7 @@ std::vector<RateLimits> read_limits(const Arguments& arguments, const RetimingPa
   return limits_of(model, input.path.joint_names, given, arguments.others);
 }
 
-/// Puts the answer into lines.
+/// Writes the lines of the answer.
 class Report {
  public:
   Report(const Arguments& arguments, const RetimingPath& input, const RetimingScene& where,
@@ -178,7 +178,8 @@ class Report {
                                : "";
   }
 
-  /// The joint that comes closest to its limit, of each rate. Rounded up: it is a proven bound.
+  /// Writes the joint that comes closest to its limit, for each rate; rounded up, as a proven
+  /// bound.
   void rates(const ExecutedProof& proof) {
     for (std::size_t what = 0; what < kJointRateWords.size(); ++what) {
       const RateUse* most = nullptr;
@@ -207,7 +208,7 @@ class Report {
                                 time_text(pair.closest->t * proof.duration), names(pair.members)));
   }
 
-  /// Pairs that were in contact at an end of the path.
+  /// Writes the pairs that were in contact at an end of the path.
   void held(const ExecutedProof& proof) {
     for (const ProvenHold& hold : proof.held) {
       const std::string until = hold.to < proof.duration ? " until " + time_text(hold.to) : "";
@@ -226,7 +227,7 @@ class Report {
   const Arguments& arguments_;
   const RetimingPath& input_;
   const RetimingScene& where_;
-  const RobotModel model_;  // Of all robots that move.
+  const RobotModel model_;  // Model of all robots that move.
   const RetimedMotion& retimed_;
   std::string text_;
 };
@@ -236,12 +237,12 @@ ExitStatus status_of_refusal(const ExecutedProof& proof) {
 }
 
 ExitStatus retime_path(const Arguments& arguments) {
-  const Interrupt interrupt;  // First: other threads inherit what it blocks.
+  const Interrupt interrupt;  // First, as other threads inherit its block of signals.
   Progress progress;
   const TrajectoryFormat format = trajectory_format_of(arguments.output);
   const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
   require_different(outputs);
-  // Missing is better known before the work than after it.
+  // A missing viewer is reported before the work.
   const std::string viewer = arguments.page.empty() ? "" : viewer_page();
   std::vector<std::filesystem::path> named{arguments.path, arguments.limits};
   for (const std::string& file : files_of(arguments.robot)) {
@@ -270,7 +271,7 @@ ExitStatus retime_path(const Arguments& arguments) {
       return status_of_refusal(retimed.proof);
     }
     progress.doing("proving the file");
-    // What counts is the file: its text is read as a controller reads it, and that is proven.
+    // The file counts: its text is read as a controller reads it, and that motion is proven.
     const std::string text = write_trajectory(retimed.motion, format);
     options.proof.closest = true;
     const ExecutedProof proof = prove_motion(parse_timed_motion(text, arguments.output, model),
@@ -302,7 +303,7 @@ void require_one_input(const Arguments& arguments) {
   }
   if (!arguments.path.empty()) {
     RobotArguments others = arguments.robot;
-    others.tracking_error.reset();  // Of the controller, whatever moves.
+    others.tracking_error.reset();  // It is the controller's, whatever moves.
     require_no_option_of_a_robot(others);
   }
 }

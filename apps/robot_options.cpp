@@ -24,7 +24,7 @@ RobotSurface surface_of(const RobotArguments& arguments) {
                                         : RobotSurface::collision;
 }
 
-/// The texts that differ by use.
+/// The texts that differ between uses.
 struct RobotTexts {
   const char* robot;
   const char* trajectory;
@@ -59,7 +59,7 @@ RobotTexts texts_for(RobotUse use) {
 
 void add_robot_options(CLI::App& command, RobotArguments& arguments, RobotUse use) {
   const RobotTexts texts = texts_for(use);
-  // Where a plan refuses them it says why, but its help does not offer them.
+  // A plan refuses these options with a reason, and its help does not list them.
   const char* const of_motion = use == RobotUse::plan ? "" : "Robot";
   const auto file = [&](const char* name, std::string& value, const char* text) {
     return add_file(command, name, value, text)->group("Robot");

@@ -1,5 +1,5 @@
 /// @file
-/// The options that ask about one robot without a scene file.
+/// The options for a question about one robot without a scene file.
 
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace firstcontact::app {
 
-/// What the command line says of a robot; paths as they were written.
+/// The arguments of the command line about a robot; paths as they were written.
 struct RobotArguments {
-  std::string robot;  ///< Empty where none is asked about.
+  std::string robot;  ///< Empty where there is no robot.
   std::string srdf;
   std::string trajectory;
   std::string request;
@@ -33,24 +33,27 @@ struct RobotArguments {
   bool unwrap = false;
 };
 
-/// What the robot is for.
+/// The use of the robot.
 enum class RobotUse { check, plan, retime };
 
-/// Adds the options with texts for their use. Those that a plan refuses are not listed by its help.
+/// Adds the options with texts for their use. The help does not list those that a plan refuses.
 void add_robot_options(CLI::App& command, RobotArguments& arguments,
                        RobotUse use = RobotUse::check);
 
 /// All files that the arguments name.
 [[nodiscard]] std::vector<std::string> files_of(const RobotArguments& arguments);
 
-/// A scene says of its robots itself what these options say: they must not be lost in silence.
+/// Refuses these options beside a scene, which has its own robots: they must not be lost in
+/// silence.
 ///
-/// @throws std::invalid_argument, the first that is given beside a scene
+/// @throws std::invalid_argument  names the first option that is given beside a scene
 void require_no_option_of_a_robot(const RobotArguments& arguments);
 
-/// The file that errors without a file of their own are about: the motion's, or the robot's.
+/// The file that errors name which have no file of their own: the motion's, or the robot's.
 [[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);
 
+/// Reads the scene of the arguments.
+///
 /// @param plans  as RobotQuestion::plans
 /// @throws ParseError, std::invalid_argument
 [[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments, const ReadingOptions& reading,

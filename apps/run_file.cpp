@@ -18,7 +18,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// How many whole lines there are.
+/// The number of whole lines.
 std::size_t count_lines(std::istream& stream) {
   std::string block(std::size_t{1} << 20, '\0');
   std::size_t lines = 0;
@@ -30,9 +30,9 @@ std::size_t count_lines(std::istream& stream) {
   return lines;
 }
 
-/// What a file holds already, and what may be done about it.
+/// Describes the present contents of a file, and the ways to go on.
 ///
-/// @param resumes  the command can go on with it
+/// @param resumes  whether the command can go on with the run
 std::string describe_held(const std::string& path, const RunHeader& header, bool resumes) {
   constexpr const char* kReplace = "replace it with --force, or give another file";
   std::ifstream stream(path, std::ios::binary);
@@ -92,7 +92,7 @@ RunFile RunFile::resume(const std::string& path, const RunHeader& header,
     std::getline(stream, first);
     const std::string expected = write_run_header(header);
     if (stream.eof() && expected.starts_with(first)) {
-      return {path, header};  // Killed before the header was whole.
+      return {path, header};  // The run was killed before the header was whole.
     }
     if (first + '\n' != expected) {
       throw std::invalid_argument(

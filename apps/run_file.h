@@ -1,5 +1,5 @@
 /// @file
-/// The file that a simulation grows.
+/// The file to which a simulation appends.
 
 #pragma once
 
@@ -13,15 +13,16 @@
 
 namespace firstcontact::app {
 
-/// What becomes of a run that a file holds when another one is to begin there.
+/// The treatment of a run in the file where another one is to begin.
 enum class HeldRun {
-  kept,       ///< It is refused.
-  resumable,  ///< It is refused, and --resume is offered where the two are one run.
-  replaced,   ///< It is lost.
+  kept,       ///< The new run is refused.
+  resumable,  ///< The new run is refused, and --resume is offered where the two are one run.
+  replaced,   ///< The old run is lost.
 };
 
-/// Holds a header and whole steps, at every moment but while a line is being written. What was cut
-/// off there is left out when the run is resumed.
+/// A file with a header and whole steps, at every moment except while a line is written.
+///
+/// A line that was cut off there is left out when the run is resumed.
 class RunFile {
  public:
   /// Begins a new run.
@@ -32,9 +33,9 @@ class RunFile {
 
   /// Goes on with the run in the file, or begins one where there is no file.
   ///
-  /// @param each    called with every step that is there
-  /// @throws std::invalid_argument if the file holds another run than one with this header;
-  ///         ParseError if it holds none
+  /// @param each    called with every existing step
+  /// @throws std::invalid_argument if the file holds another run than one with this header
+  /// @throws ParseError if it holds no run
   static RunFile resume(const std::string& path, const RunHeader& header,
                         const std::function<void(const RunStep&)>& each);
 

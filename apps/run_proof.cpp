@@ -24,7 +24,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// Writes the lines of one answer, but for a broken record.
+/// Writes the lines of one answer, except for a broken record.
 class RunDescription {
  public:
   RunDescription(const std::string& file, const RunReader& run, const RunVerification& found)
@@ -84,7 +84,7 @@ class RunDescription {
     }
   }
 
-  /// A simulation may have ended early.
+  /// A note about the whole: a simulation may have ended early.
   [[nodiscard]] std::string of_the_whole() const {
     const double whole = scene_.simulation ? scene_.simulation->duration : 0.0;
     return found_.time < (1.0 - 1e-9) * whole ? " of " + time_text(whole) : "";
@@ -112,6 +112,8 @@ std::string digest_of_scene(const ProofArguments& arguments, RunKind kind) {
   }
 }
 
+/// Requires the scene of the run.
+///
 /// @throws ParseError if the run was not made of the scene file as it is now
 void require_scene(const ProofArguments& arguments, const RunHeader& header) {
   const std::string digest = digest_of_scene(arguments, header.kind);

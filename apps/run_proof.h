@@ -1,5 +1,5 @@
 /// @file
-/// The second proof of a run, and its answer as people read it.
+/// The second proof of a run, and its answer as text for a terminal.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace firstcontact::app {
 
 class Progress;
 
-/// Proves a run again, and prints what was found.
+/// Proves a run again, and prints the findings.
 ///
 /// @param stream  at the begin of the file
 /// @throws ParseError where it holds something else, contradicts itself, or a file has changed

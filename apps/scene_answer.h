@@ -1,5 +1,5 @@
 /// @file
-/// A scene with all that was asked about it.
+/// A scene with the answers to all questions about it.
 
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace firstcontact::app {
 
-/// What a command line asks of every scene.
+/// The question of a command line about every scene.
 struct Question {
   std::optional<double> margin;          ///< [m]    In place of the scene's.
   std::optional<double> tolerance;       ///< [m]    In place of the scene's.
   std::optional<double> deadline;        ///< [s]    In place of the scene's.
   std::optional<ContactState> contacts;  ///< In place of the scene's.
-  std::optional<double> sample_rate;     ///< [1/s]  Also what sampling would have seen.
+  std::optional<double> sample_rate;     ///< [1/s]  Rate of sampling, to compare with the proof.
   bool all_pairs = false;
   bool closest = false;
   bool all_contacts_in_time = false;
@@ -31,26 +31,29 @@ struct Question {
   int threads = 0;       ///< 0 for one on each core.
   bool gap_curve = false;
   std::stop_token stop;
-  std::function<void(std::string)> doing;  ///< Called with what is being done.
+  std::function<void(std::string)> doing;  ///< Called with the name of the present work.
 
   [[nodiscard]] ReadingOptions reading() const { return {.lenient = lenient}; }
-  /// Whether the result as JSON has every pair: intervals of contact are with their pairs.
+  /// Whether the result as JSON has every pair, as intervals of contact are written with their
+  /// pairs.
   [[nodiscard]] bool writes_pairs() const { return all_pairs || all_contacts_in_time; }
 };
 
-/// Puts what the command line says in the place of what the scene says.
+/// Replaces options of the scene by those of the command line.
 void override_options(const Question& question, SceneOptions& options);
 
 struct SceneAnswer {
   LoadedScene loaded;
   SceneResult result;
-  std::vector<GapSample> samples;  ///< At the sample rate; empty where none was asked.
-  std::vector<GapSample> curve;    ///< Of the gap; empty where none was asked.
+  std::vector<GapSample> samples;  ///< Samples at the sample rate; empty without a rate.
+  std::vector<GapSample> curve;    ///< Samples of the gap; empty where they were not asked for.
   std::optional<SamplingReport> sampling;
 };
 
-/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate; of a motion beyond joint
-///         limits where that is an error
+/// Answers a scene.
+///
+/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate; for a motion beyond
+///         joint limits where that is an error
 [[nodiscard]] SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
                                        ManyBodiesWorkspace& workspace);
 

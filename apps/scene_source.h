@@ -1,5 +1,5 @@
 /// @file
-/// Where the scenes of a command line come from: files, or the lines of JSON Lines files.
+/// The sources of the scenes of a command line: files, or the lines of JSON Lines files.
 
 #pragma once
 
@@ -16,17 +16,18 @@ namespace firstcontact::app {
 /// One scene that is not read yet.
 struct SceneSource {
   std::string file;
-  std::optional<std::size_t> line;  ///< Of a file of JSON Lines.
+  std::optional<std::size_t> line;  ///< Line in a file of JSON Lines.
   std::function<Scene()> read;      ///< Throws ParseError; valid during the visit only.
 };
 
 /// Whether a file has one scene in each line, by the ending of its name: .jsonl or .ndjson.
 [[nodiscard]] bool is_json_lines(const std::filesystem::path& file);
 
-/// Visits the scenes of a file in order until a visit returns false. Blank lines are no scenes.
-/// Standard input, "-", has one scene, or one in each line where the first line is a whole one.
+/// Visits the scenes of a file in order until a visit returns false; skips blank lines.
 ///
-/// @param reading  how the scenes are read
+/// Standard input, "-", has one scene, or one in each line where the first line is a whole scene.
+///
+/// @param reading  options of reading the scenes
 void for_each_scene(const std::filesystem::path& file, const ReadingOptions& reading,
                     const std::function<bool(const SceneSource&)>& visit);
 

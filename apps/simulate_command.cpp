@@ -53,7 +53,7 @@ struct Arguments {
   bool lenient = false;
 };
 
-/// As messages name the scene.
+/// The name of the scene in messages.
 std::string name_of(const Arguments& arguments) {
   return arguments.scene == kStdin ? std::string(kStdinName) : arguments.scene;
 }
@@ -90,12 +90,12 @@ Simulator load(const Arguments& arguments) {
   }
 }
 
-/// What this call computed.
+/// The work of this call.
 struct Work {
   std::size_t steps = 0;
   double simulated = 0.0;  // [s]
   double seconds = 0.0;    // [s]
-  double slowest = 0.0;    // [s]  Step.
+  double slowest = 0.0;    // [s]  Slowest step.
 
   void take(const RunStep& step, double took) {
     ++steps;
@@ -105,14 +105,15 @@ struct Work {
   }
 };
 
-/// What the steps of a run amount to, those that were there among them.
+/// The totals of the steps of a run, earlier ones included.
 struct Tally {
-  double time_lost = 0.0;                                      // [s]
-  std::map<std::size_t, double> behind = {};                   // [s]  Most of scripted bodies.
+  double time_lost = 0.0;                     // [s]
+  std::map<std::size_t, double> behind = {};  // [s]  The most by which each scripted body was
+                                              // behind.
   double clearance = std::numeric_limits<double>::infinity();  // [m]
   double residual = 0.0;                                       // [m/s]
   std::size_t events = 0;
-  std::optional<double> impulse;       // [N s]  The greatest of an impact at one place.
+  std::optional<double> impulse;       // [N s]  The greatest impulse of an impact at one place.
   std::optional<double> first_energy;  // [J]
   double last_energy = 0.0;            // [J]
 
@@ -138,7 +139,7 @@ class Run {
  public:
   explicit Run(const Arguments& arguments) : arguments_(arguments), simulator_(load(arguments)) {
     if (!arguments.page.empty()) {
-      template_ = viewer_page();  // Missing is better known before the work than after it.
+      template_ = viewer_page();  // A missing viewer is reported before the work.
       page_.emplace(simulator_.header());
     }
     if (!arguments.animation.empty()) {
@@ -197,7 +198,7 @@ class Run {
     }
   }
 
-  /// Where it was asked for, and there is something to play.
+  /// Writes the page, where it was asked for and there is something to play.
   void write_page() const {
     if (page_ && page_->time() > 0.0) {
       ShapeCache cache;
@@ -276,7 +277,7 @@ class Run {
     flush_stdout();
   }
 
-  /// What a body of a run moves with: itself, or the robot that it is a link of.
+  /// The name of the mover of a body: itself, or the robot of which it is a link.
   [[nodiscard]] std::string mover_of(std::size_t body) const {
     const Scene& scene = simulator_.header().scene;
     const std::string& name = simulator_.loaded().scene.bodies[body].name;
@@ -289,7 +290,7 @@ class Run {
     return robot->name;
   }
 
-  /// The bodies and robots that waited, those that did so longest first.
+  /// The bodies and robots that waited, those with the longest wait first.
   [[nodiscard]] std::string waited() const {
     constexpr std::size_t kMost = 3;
     std::map<std::string, double> movers;
@@ -320,11 +321,11 @@ class Run {
     }
   }
 
-  const Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  const Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
   const Arguments& arguments_;
   Simulator simulator_;
-  std::string template_;  // Of the page.
+  std::string template_;  // Template of the page.
   std::optional<RunPage> page_;
   std::optional<RunAnimation> animation_;
   std::optional<RunFile> file_;

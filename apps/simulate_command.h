@@ -9,6 +9,7 @@
 
 namespace firstcontact::app {
 
+/// Adds the command; it runs while the command line is parsed, and leaves its status.
 void add_simulate_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace firstcontact::app

@@ -23,7 +23,9 @@
 namespace firstcontact::app {
 namespace {
 
-/// The first line where that is a whole object, else all of the text.
+/// Finds the kind of a file by its first line; where that is no whole object, by all of its text.
+///
+/// It returns that text; nothing for a run.
 std::string told_kind(std::istream& stream, ProvableFile& kind) {
   std::string text;
   std::getline(stream, text);
@@ -41,7 +43,9 @@ std::string told_kind(std::istream& stream, ProvableFile& kind) {
   return text;
 }
 
-/// @throws ParseError if the text is a scene, of which nothing is claimed yet
+/// Refuses a scene, of which nothing is claimed yet.
+///
+/// @throws ParseError if the text is a scene
 void require_no_scene(const std::string& file, const std::string& text) {
   const auto root = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!root.is_object() || !root.contains("firstcontact")) {
@@ -56,7 +60,7 @@ void require_no_scene(const std::string& file, const std::string& text) {
 }
 
 ExitStatus verify(const ProofArguments& arguments) {
-  const Interrupt interrupt;  // First: other threads inherit what it blocks.
+  const Interrupt interrupt;  // First, as other threads inherit its block of signals.
   Progress progress;
   std::ifstream stream(arguments.file, std::ios::binary);
   if (!stream) {

@@ -60,7 +60,7 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-/// In the user's browser. The page is written whether or not this works.
+/// Opens a page in the user's browser. The page is written whether or not this works.
 void open(const std::string& page) {
   std::string program = "xdg-open";
   std::string argument = page;
@@ -85,9 +85,9 @@ bool is_run(const std::string& path) {
   return begin == kBegin;
 }
 
-/// Reads a run into what collects it (RunPage or RunAnimation), and its scene.
+/// Reads a run into its collector (RunPage or RunAnimation), and its scene.
 ///
-/// One line of the run is held at a time: it may be as large as a disk allows.
+/// One line of the run is held at a time, as the run may be as large as a disk allows.
 template <typename Collected>
 std::pair<Collected, LoadedScene> collect_run(const std::string& path, const OutputFile& output,
                                               const ReadingOptions& reading) {

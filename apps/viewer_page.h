@@ -7,9 +7,9 @@
 
 namespace firstcontact::app {
 
-/// The page without a result: ../share/firstcontact/viewer.html, seen from the tool's folder.
+/// The page without a result: ../share/firstcontact/viewer.html, relative to the tool's folder.
 ///
-/// @throws std::runtime_error, one line that says how to mend it, where there is none
+/// @throws std::runtime_error, one line with the mend, where there is none
 [[nodiscard]] std::string viewer_page();
 
 }  // namespace firstcontact::app

@@ -7,7 +7,7 @@
 
 namespace firstcontact::app {
 
-/// Writes all of a text, in as many pieces as it takes. Where that fails, errno says why.
+/// Writes all of a text, in as many calls as it takes. Where that fails, errno has the reason.
 [[nodiscard]] bool write_all(int descriptor, std::string_view text);
 
 }  // namespace firstcontact::app
