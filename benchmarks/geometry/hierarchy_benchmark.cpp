@@ -1,4 +1,4 @@
-// Time to build the hierarchy of a torus knot, on one and on two threads.
+// Times the building of the hierarchy of a torus knot, on one and on two threads.
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

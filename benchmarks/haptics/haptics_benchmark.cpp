@@ -1,14 +1,16 @@
-// Times both loops of a haptic scene in virtual time, and prints how far forces are from those of a
-// contact loop that runs to convergence at that tick, from where the tool is: those that the hand
-// feels, of a set that is 1 to 1.75 ms old, and those of the set that this tick's cycle makes.
+// Times both loops of a haptic scene in virtual time, and prints the errors of two forces. The
+// reference is the force of a contact loop that runs to convergence at the same tick and pose of
+// the tool. One force is the one that the hand feels, from a contact set that is 1 to 1.75 ms old.
+// The other is computed from the set that this tick's cycle makes.
 //
 //     haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS [HAND [LEAD]]]]]]]
 //
-// The hand knows nothing of the scene: random via points in a ball of RADIUS [m] around the start,
-// strokes of up to SPEED [m/s] in the mean. HAND is its stiffness [N/m]. LEAD [ms] is
-// how far the targets of cycles lead; with 0 the set of a tick's own cycle shows what rounds leave.
-// Times are those of the thread's CPU clock; every tick counts. Forces are compared where there is
-// no friction.
+// The motion of the hand is independent of the scene. The hand moves through random via points in a
+// ball of RADIUS [m] around the start, with mean speeds of at most SPEED [m/s] between them. HAND
+// is the stiffness of the hand [N/m]. LEAD [ms] is the time by which the targets of cycles are
+// ahead. With LEAD 0 the set of a tick's own cycle shows the error that the limited number of
+// rounds leaves. Times are those of the thread's CPU clock; every tick counts. Forces are compared
+// where there is no friction.
 
 #include <ctime>
 
@@ -40,7 +42,8 @@
 namespace firstcontact {
 namespace {
 
-/// [ticks]  Every so many forces are compared: at each age of a set in turn.
+/// [ticks]  Interval between two compared forces; successive comparisons meet a set at different
+/// ages.
 constexpr std::int64_t kCompared = 31;
 
 struct Options {
@@ -50,7 +53,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::size_t most_contacts = 32;
   double hand = 400.0;
-  double lead = 1.375;  // [ms]  To the middle of 1 to 1.75 ms, the ages of the sets that are felt.
+  double lead = 1.375;  // [ms]  Reaches the middle of 1 to 1.75 ms, the ages of the felt sets.
 };
 
 std::int64_t cpu_ns() {
@@ -86,7 +89,7 @@ struct Fidelity {
   std::vector<double> angles;  // [deg]
 
   void add(const Eigen::Vector3d& felt, const Eigen::Vector3d& exact) {
-    if (exact.norm() < 0.2) {  // [N]  Less says nothing of a direction.
+    if (exact.norm() < 0.2) {  // [N]  A smaller force has no meaningful direction.
       return;
     }
     errors.push_back((felt - exact).norm() / exact.norm());
@@ -111,7 +114,7 @@ struct Fidelity {
   }
 };
 
-/// A contact loop that runs to convergence.
+/// Contact loop that runs to convergence.
 class Reference {
  public:
   Reference(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
@@ -123,7 +126,7 @@ class Reference {
     options_.most_contacts = kMostHapticContacts;
   }
 
-  /// The force on the first tool, from where the tools are; none where 60 rounds do not suffice.
+  /// Computes the force on the first tool at its present pose; none where 60 rounds do not suffice.
   ///
   /// @param from  the contact set that is felt
   std::optional<Eigen::Vector3d> force(const HapticContactSet& from, double contact_distance,
@@ -170,8 +173,8 @@ int run(const std::string& file, const Options& options) {
   TimingHistogram touching_cpu;
   TimingHistogram listed;
   TimingHistogram found;
-  std::size_t rounds = 0;      // Of cycles with contacts.
-  std::size_t unfinished = 0;  // Cycles.
+  std::size_t rounds = 0;      // Sum over the cycles with contacts.
+  std::size_t unfinished = 0;  // Number of cycles that ended before they converged.
   Fidelity felt;
   Fidelity at_once;
   double clearance = 1e9;
@@ -187,7 +190,7 @@ int run(const std::string& file, const Options& options) {
       states[d] = devices[d]->read(now);
     }
     if (k % 4 == 0) {
-      set = contacts.contact_set();  // Of the cycle before: a millisecond of latency.
+      set = contacts.contact_set();  // The set of the cycle before, so a millisecond of latency.
     }
     const std::int64_t before = cpu_ns();
     const ForceTick& tick = forces.tick(now, set, states);
@@ -200,7 +203,7 @@ int run(const std::string& file, const Options& options) {
       led[d] = leads[d].target_in(detail::is_rubbing(set, d) ? 0.0 : 1e-3 * options.lead);
     }
     std::optional<Eigen::Vector3d> exact;
-    if (k % kCompared == 0) {  // From the first tick on: the ramp has to be over there, too.
+    if (k % kCompared == 0) {  // Starts at tick 0, as the ramp of the reference has to end.
       exact = reference.force(set, contacts.contact_distance(), targets, states, now);
     }
     exact = k > 1000 ? exact : std::nullopt;

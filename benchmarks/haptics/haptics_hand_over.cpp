@@ -1,9 +1,9 @@
-// Exchanges sets of contacts between two threads, and tells how many were torn or out of order.
+// Exchanges contact sets between two threads, and reports how many were torn or out of order.
 //
 //     haptics_hand_over [EXCHANGES]     1e8 by default
 //
-// An exchange is a set that is put. Each has a checksum of its content, which the other thread
-// computes again. Exit status 1 where one does not agree.
+// One exchange puts one set. Each set has a checksum of its content, which the other thread
+// computes again. The exit status is 1 where a checksum does not agree.
 
 #include <cstdint>
 #include <cstdio>
@@ -28,7 +28,7 @@ int exchange(std::uint64_t count) {
       for (std::size_t c = 0; c < set.count; ++c) {
         set.contacts[c].point.setConstant(static_cast<double>(k + c));
       }
-      // What changes every time is at both ends of the set.
+      // The values that change every time stand at both ends of the set.
       set.checksum = checksum_of(set);
       slot.put(set);
     }

@@ -1,19 +1,19 @@
-// Looks for the largest stiffness of a wall that does not give energy to a hand, and prints what
-// theory allows.
+// Finds the largest stiffness of a wall that does not give energy to a hand, and prints the bound
+// of theory.
 //
 //     haptics_passivity [SECONDS [HAND]]
 //
-// A handle with mass, damping b, friction f_c, an encoder of step D and a delay is pressed on a
-// floor by a hand of stiffness HAND [N/m], which holds it from then on. The command is held between
-// ticks, the dynamics in between is continuous. The hand has no damping, so what it and the spring
-// lose is lost by the mechanism. A stiffness counts as active where the handle swings farther at
-// the end than in the middle.
+// The handle has a mass, damping b, friction f_c, an encoder of step D and a delay. A hand of
+// stiffness HAND [N/m] presses the handle on a floor and holds it from then on. The command is held
+// between ticks; the dynamics between them is continuous. The hand has no damping, so the mechanism
+// dissipates all energy that the hand and the spring lose. A stiffness counts as active where the
+// handle swings farther at the end than in the middle.
 //
 // Theory: J. J. Abbott, A. M. Okamura, "Effects of position quantization and sampling rate on
 // virtual-wall passivity", IEEE Transactions on Robotics 21 (2005): K <= min(2 b / T, 2 f_c / D)
-// for a wall without delay. With a delay d the linear bound is b / (T / 2 + d) (J. J. Gil et al.,
+// for a wall without delay. With a delay d the linear bound is b / (T / 2 + d): J. J. Gil et al.,
 // "Stability analysis of a 1-DOF haptic interface", IEEE/ASME Transactions on Mechatronics 14
-// (2009)).
+// (2009).
 
 #include <algorithm>
 #include <array>
@@ -34,18 +34,18 @@ struct DeviceClass {
   double damping = 0.1;       // [N s/m]
   double friction = 0.0;      // [N]
   double resolution = 0.0;    // [m]
-  std::int64_t delay_ns = 0;  // Of the sensor.
+  std::int64_t delay_ns = 0;  // Delay of the sensor.
   std::int64_t jitter_ns = 0;
   double rate = 4000.0;  // [Hz]
 };
 
-/// How far the handle swings, peak to peak.
+/// Swing of the handle, peak to peak.
 struct Swing {
-  double early = 0.0;  // [m]  From 0.3 to 0.5 of the time.
-  double late = 0.0;   // [m]  From 0.8 on.
+  double early = 0.0;  // [m]  Between 0.3 and 0.5 of the duration.
+  double late = 0.0;   // [m]  From 0.8 of the duration on.
 };
 
-/// Peak to peak.
+/// Range of the values that were added, peak to peak.
 class Extent {
  public:
   void add(double x) {
@@ -93,7 +93,7 @@ Swing swing_of(const DeviceClass& device, double stiffness, double seconds, doub
   pressed.time = 0.1;
   pressed.X_DH.position = {0.0, 0.0, -0.004};
   operator_options.path = {begin, pressed};
-  operator_options.hand.damping = 0.0;  // A hand that takes no energy away is the worst.
+  operator_options.hand.damping = 0.0;  // The worst hand dissipates no energy.
   SimulatedOperator handle(operator_options);
   const auto count = static_cast<std::int64_t>(seconds * device.rate);
   Extent early;
@@ -129,7 +129,7 @@ bool is_active(const DeviceClass& device, double stiffness, double seconds, doub
   return swing.late > std::max(still, 1.02 * swing.early);
 }
 
-/// [N/m]  The largest stiffness found that is not active, by bisection between 1 and 1e6.
+/// [N/m]  Finds the largest stiffness that is not active, by bisection between 1 and 1e6.
 double largest_passive(const DeviceClass& device, double seconds, double hand) {
   double low = 1.0;
   double high = 1e6;

@@ -1,11 +1,11 @@
-// A noisy hand puts a peg into its hole, once for each seed; tells how deep it got, and how much
-// the force swings while the hand holds still.
+// A noisy hand puts a peg into its hole, once for each seed. The program prints the depth that the
+// peg reaches, and the swing of the force while the hand holds still.
 //
 //     haptics_peg SCENE.json [SEEDS [STIFFNESS_OF_HAND]]
 //
-// The hand aims at the hole with an error of its own for each seed: 0.2 mm and 1 degree. It has
-// no tremor, so that what swings is the loop. The swing is the part of the force between 50
-// and 1000 Hz, root mean square, by the mean force.
+// The hand misses the axis of the hole by a different error for each seed: 0.2 mm and 1 degree. The
+// hand has no tremor, so any swing comes from the loop. The swing is the root mean square of the
+// force between 50 and 1000 Hz, divided by the mean force.
 
 #include <algorithm>
 #include <array>
@@ -33,10 +33,10 @@ namespace firstcontact {
 namespace {
 
 constexpr double kEnd = 4.0;      // [s]
-constexpr double kStill = 0.5;    // [s]  Of the end.
+constexpr double kStill = 0.5;    // [s]  Length of the last part, in which the hand holds still.
 constexpr double kRate = 4000.0;  // [Hz]
 
-/// The pose of the handle that brings a tool from its start to a pose.
+/// Computes the pose of the handle that brings a tool from its start to a pose.
 Pose handle_for(const Pose& start, const Pose& wanted) {
   return {wanted.position - start.position,
           (wanted.rotation * start.rotation.conjugate()).normalized()};
@@ -67,13 +67,13 @@ std::vector<ViaPoint> path_of(const Pose& start, std::uint64_t seed) {
 }
 
 struct Insertion {
-  double height = 0.0;     // [m]  Of the tool at the end.
+  double height = 0.0;     // [m]  Height of the tool at the end.
   double swing = 0.0;      // [-]
   double greatest = 0.0;   // [N]
   double clearance = 1e9;  // [m]
 };
 
-/// [N]  Root mean square between 50 and 1000 Hz.
+/// [N]  Computes the root mean square of the forces between 50 and 1000 Hz.
 double swing_of(const std::vector<double>& forces) {
   double mean = 0.0;
   for (const double force : forces) {

@@ -1,10 +1,12 @@
-// First contact of pairs of convex sets: certified, beside FCL's continuousCollide of the same
-// bodies, and of a curved body against a mesh beside the prism around it. FCL samples: its naive
-// solver asks collide() at 10 times, and misses what lies between. Its conservative advancement
-// does not support cylinders, and its libccd solver aborts on some of these pairs.
+// Times the certified first contact of pairs of convex sets beside FCL's continuousCollide of the
+// same bodies. A second part times a curved body against a mesh, beside the prism around that body.
+// FCL samples: its naive solver calls collide() at 10 times, and misses contacts between them. Its
+// conservative advancement does not support cylinders, and its libccd solver aborts on some of
+// these pairs.
 //
 // Bodies of 0.2 m to 1 m move by 1 m to 3 m towards or past each other and turn by up to pi. Each
-// run asks 256 pairs in turn, so that none is predicted. Half of the pairs meet, roughly.
+// run queries 256 pairs in turn, so that the processor cannot predict the branches of any. About
+// half of the pairs meet.
 
 #include <benchmark/benchmark.h>
 
@@ -92,7 +94,7 @@ std::shared_ptr<fcl::CollisionGeometryd> make_fcl(Kind kind, const Vector3d& siz
   }
 }
 
-/// Made once for each pair of kinds.
+/// Returns the random cases of a pair of kinds, made once for each pair.
 const std::vector<Case>& random_cases(Kind kind_A, Kind kind_B) {
   static std::map<std::pair<Kind, Kind>, std::vector<Case>> kept;
   std::vector<Case>& cases = kept[{kind_A, kind_B}];
@@ -139,7 +141,7 @@ void run(benchmark::State& state, std::size_t count, const Ask& ask) {
   state.counters["contacts"] = static_cast<double>(contacts) / static_cast<double>(asked);
 }
 
-/// @param exact  else by their triangles
+/// @param exact  whether the curved surfaces are tested, else their triangles
 void first_contact_of(benchmark::State& state, Kind kind_A, Kind kind_B, bool exact,
                       ContactState contacts) {
   std::vector<Case> cases = random_cases(kind_A, kind_B);
@@ -205,7 +207,7 @@ void BM_PairFcl(benchmark::State& state, Kind A, Kind B) {
   }
 }
 
-/// A cylinder that comes to a torus knot of 20,000 triangles.
+/// Times a cylinder that moves towards a torus knot of 20,000 triangles.
 void against_mesh(benchmark::State& state, bool exact) {
   const Shape knot(torus_knot(static_cast<std::size_t>(state.range(0))));
   const Motion rest = Motion::fixed();

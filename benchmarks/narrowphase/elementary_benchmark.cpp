@@ -1,9 +1,9 @@
-// The elementary tests over the whole step: mean time of a hit and of a miss.
+// Times the elementary tests over the whole step: the mean time of a hit and of a miss.
 //
-// Both bodies move up to 1 m and turn by up to pi, each about an axis of its own. Features are 0.02
-// m to 0.5 m long and up to 1 m from their body's origin; every pair is placed to meet inside at a
-// random time. A miss is such a pair, moved aside by 0.01 m to 1 m. The relative motion is prepared
-// once for the features of two bodies, and timed apart.
+// Both bodies move up to 1 m and turn by up to pi, each about its own axis. Features are 0.02 m to
+// 0.5 m long and up to 1 m from the origin of their body. Every pair is placed so that the features
+// meet inside at a random time. A miss is such a pair, moved aside by 0.01 m to 1 m. The relative
+// motion is prepared once for the features of two bodies, and timed apart.
 
 #include <benchmark/benchmark.h>
 
@@ -26,7 +26,7 @@ namespace {
 using Eigen::Vector3d;
 using test::Random;
 
-constexpr int kPairs = 1000;  // Of each outcome.
+constexpr int kPairs = 1000;  // Number of pairs of each outcome.
 constexpr std::uint64_t kSeed = 20261123;
 
 PlainMotion random_motion(Random& random) {
@@ -41,7 +41,7 @@ RelativeMotion relative_motion(const PlainMotionPair& pair) {
                         pair.B.motion().path(0, Vector3d::Zero()), 1e-6);
 }
 
-/// A triangle or an edge, and a point inside it.
+/// Feature (a triangle or an edge) and a point inside it.
 template <typename Feature>
 std::pair<Feature, Vector3d> random_feature(Random& random) {
   const Vector3d lever = random.uniform(0.0, 1.0) * random.direction();
@@ -101,7 +101,7 @@ Query<Test> random_query(Random& random, bool aside) {
 template <typename Test>
 struct Drawn {
   std::vector<Query<Test>> queries;
-  int degenerate = 0;  // Left out, as are misses that hit.
+  int degenerate = 0;  // Number of pairs that were left out, as are misses that hit.
 };
 
 template <typename Test>

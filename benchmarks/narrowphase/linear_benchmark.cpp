@@ -1,4 +1,4 @@
-// Time of the elementary tests of features whose corners move on lines, apart and touching.
+// Times the elementary tests of features whose corners move on lines, apart and touching.
 
 #include <benchmark/benchmark.h>
 
@@ -16,8 +16,11 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<LinearPoint, 4>;  // Face and vertex, or the ends of two edges.
 
-/// As the handcrafted queries of the Tight-Inclusion benchmark (Wang et al. 2021) are degenerate:
-/// in one plane, with parallel or collinear edges, with corners in one place, far from the origin.
+/// Families of questions; all after `touching` are degenerate.
+///
+/// The degenerate ones imitate the handcrafted queries of the Tight-Inclusion benchmark (Wang et
+/// al. 2021). Features lie in one plane, are parallel, collinear or of length 0, or are far from
+/// the origin.
 enum class Family { apart, touching, coplanar, parallel, collinear, zero_length, far };
 
 constexpr std::array kFamilies = {Family::apart,    Family::touching,  Family::coplanar,
@@ -30,7 +33,7 @@ const char* name(Family family) {
   return kNames[static_cast<int>(family)];
 }
 
-/// Features of size 1 whose corners move by about 1; that meet at a random time, or pass.
+/// Makes features of size 1 whose corners move by about 1, and which meet at a random time or pass.
 std::vector<Corners> questions(Family family, bool edges) {
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -65,7 +68,7 @@ std::vector<Corners> questions(Family family, bool edges) {
     Corners& corners = result.emplace_back();
     for (std::size_t k = 0; k < 4; ++k) {
       const bool of_B = k == 3 || (edges && k == 2);
-      // Parallel ones stay so: each feature has one velocity.
+      // Parallel edges stay parallel, as each feature has one velocity.
       Vector3d velocity = vector();
       if (family == Family::parallel) {
         velocity = of_B ? shared : Vector3d::Zero();

@@ -1,5 +1,5 @@
 /// @file
-/// FCL's answer about places of a planner's robot.
+/// FCL's collision tests of the configurations of a planner's robot.
 
 #pragma once
 
@@ -15,7 +15,9 @@
 
 namespace firstcontact::benchmarks {
 
-/// The first robot of a plan among bodies at rest, place by place. For one thread.
+/// Tests the first robot of a plan among bodies at rest, one configuration at a time.
+///
+/// For use by one thread.
 class FclPlaces {
  public:
   explicit FclPlaces(const ScenePlan& scene)
@@ -34,7 +36,7 @@ class FclPlaces {
     return peer_.collides(links(waypoint));
   }
 
-  /// X_WL of every link at a place; valid until the next call.
+  /// Returns X_WL of every link at a configuration; valid until the next call.
   [[nodiscard]] const std::vector<Eigen::Isometry3d>& links(const std::vector<double>& waypoint) {
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
       whole_[coordinates_[k].joint] = waypoint[k];
@@ -42,7 +44,9 @@ class FclPlaces {
     return kinematics_.places(whole_);
   }
 
-  /// Whether a place of an edge collides, of those that a joint's step [rad] lies between.
+  /// Returns whether a sampled configuration of an edge collides.
+  ///
+  /// No joint moves by more than `step` [rad] between two samples.
   [[nodiscard]] bool collide(const std::vector<double>& from, const std::vector<double>& to,
                              double step) {
     double longest = 0.0;
@@ -62,14 +66,14 @@ class FclPlaces {
     return false;
   }
 
-  /// Places that were tested.
+  /// Returns the number of configurations that were tested.
   [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
   std::vector<SpaceCoordinate> coordinates_;
   FclRobot peer_;
   PlainKinematics kinematics_;
-  std::vector<double> whole_;  // Of all joints.
+  std::vector<double> whole_;  // Coordinates of all joints.
   std::size_t count_ = 0;
 };
 

@@ -1,14 +1,14 @@
-// Narrow passages of known clearance: RRT-Connect with and without contacts, and twins that nothing
-// gets through.
+// Plans through narrow passages of known clearance: RRT-Connect with and without contacts. Twins of
+// the passages are closed, so that no plan exists.
 //
 //   narrow_benchmark [--families A,B] [--contacts none,sample,slide,both] [--clearances 0.1,0.01]
 //                    [--seeds N] [--time SECONDS] [--twins -0.01] [OUTPUT.json]
 //
-// Clearances are shares of the width of the body; those of twins are negative. Times are processor
-// times of one thread until the first path. Medians count runs that ended without a path as
-// censored: E. Kaplan, P. Meier, "Nonparametric estimation from incomplete observations", Journal
-// of the American Statistical Association 53 (1958). Every path is proven once more. Exit status 1
-// where one is not, or where a twin has an answer.
+// Clearances are fractions of the width of the body; those of twins are negative. Times are
+// processor times of one thread until the first path. Medians count runs that ended without a path
+// as censored: E. Kaplan, P. Meier, "Nonparametric estimation from incomplete observations",
+// Journal of the American Statistical Association 53 (1958). Every path is proven once more. The
+// exit status is 1 where a path is not proven, or where a twin has a path.
 
 #include <algorithm>
 #include <cmath>
@@ -46,18 +46,18 @@ struct Settings {
   std::string output;
 };
 
-/// A time after which something was seen, or up to which it was not.
+/// Time of an event, or the time up to which it had not happened (a censored run).
 struct Observation {
   double time = 0.0;  // [s]
   bool is_seen = false;
 };
 
-/// [s]  The least time by which half have an answer; infinite where that is not known.
+/// [s]  Estimates the median time by Kaplan and Meier; infinite where fewer than half have a path.
 double censored_median(std::vector<Observation> all) {
   std::sort(all.begin(), all.end(), [](const Observation& x, const Observation& y) {
     return x.time != y.time ? x.time < y.time : x.is_seen && !y.is_seen;
   });
-  double open = 1.0;  // Share that has none yet.
+  double open = 1.0;  // Estimated fraction of the runs that have no path yet.
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto at_risk = static_cast<double>(all.size() - k);
     open *= all[k].is_seen ? (at_risk - 1.0) / at_risk : 1.0;

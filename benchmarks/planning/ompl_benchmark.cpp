@@ -1,16 +1,16 @@
-// RRT-Connect of OMPL on proven edges and on edges that FCL samples, and how many paths of the
-// latter collide.
+// Compares OMPL's RRT-Connect on proven edges with the same planner on edges that FCL samples. The
+// program counts the colliding paths of the latter.
 //
 //   ompl_benchmark [--seeds N] [--every N] [--time SECONDS] [--plates N] [--thickness METRES]
 //                  [OUTPUT.json]
 //
-// MotionBenchMaker's 400 problems of the Panda, every N-th of them. All validators have the same
-// planner, sampler, range, seeds, geometries and tested pairs. FCL keeps its hierarchies, and tests
-// places of an edge by bisection, as OMPL's own validator does: every 1 or 5 degrees of the joint
-// that moves most, or every 1 % of the extent of the space, which is OMPL's default. Plates are put
-// at random where they leave start and goal free. Times are processor times of one thread; a run
-// without a path counts with the time that it was allowed. A path collides where an edge of it is
-// proven to. Needs FIRSTCONTACT_DATA_DIR.
+// The problems are every N-th of MotionBenchMaker's 400 problems of the Panda. All validators have
+// the same planner, sampler, range, seeds, geometries and tested pairs. FCL keeps its hierarchies,
+// and tests samples of an edge by bisection, as OMPL's own validator does. The samples lie 1 or 5
+// degrees of the joint that moves most apart, or 1 % of the extent of the space, OMPL's default.
+// Plates are put at random where they leave start and goal free. Times are processor times of one
+// thread; a run without a path counts with the time that it was allowed. A path collides where one
+// of its edges is proven to collide. The program needs FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -68,13 +68,13 @@ struct Settings {
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-/// What validators spent and did.
+/// Time that a validator spent, and the number of edges it tested.
 struct Spent {
   double ms = 0.0;
   std::size_t edges = 0;
 };
 
-/// Adds the time of a call.
+/// Adds the time of a call to that spent.
 template <class Call>
 auto timed(Spent& spent, const Call& call) {
   const double begin = thread_time();
@@ -103,10 +103,10 @@ class TimedProof : public ob::MotionValidator {
   Spent& spent_;
 };
 
-/// Places of an edge by FCL: its end, then by bisection, breadth first.
+/// Tests samples of an edge by FCL: its end first, then by bisection, breadth first.
 class SampledMotions : public ob::MotionValidator {
  public:
-  /// @param count  how many steps an edge has
+  /// @param count  returns the number of steps of an edge
   using Count = std::function<int(const ob::State*, const ob::State*)>;
   SampledMotions(const ob::SpaceInformationPtr& si, OmplStates states, FclPlaces& places,
                  Count count, Spent& spent)
@@ -179,11 +179,13 @@ class SampledStates : public ob::StateValidityChecker {
 
 /// The runs of one validator.
 struct Runs {
-  std::vector<double> solve_ms;  // Those without a path with the time that they were allowed.
+  std::vector<double> solve_ms;  // [ms]  Runs without a path count with the time that they were
+                                 // allowed.
   std::size_t solved = 0;
   std::size_t colliding = 0;
   std::size_t colliding_simplified = 0;
-  std::size_t undecided = 0;  // Paths, simplified or not, that are neither proven nor refuted.
+  std::size_t undecided = 0;  // Number of paths, simplified or not, that are neither proven nor
+                              // refuted.
   double total_ms = 0.0;
   Spent spent = {};
 
@@ -205,7 +207,7 @@ const std::vector<std::string>& validators() {
   return names;
 }
 
-/// [%]  The ratio of medians of two lists of runs, and its 95 % interval by bootstrap.
+/// [%]  Computes the ratio of medians of two lists of runs, and its 95 % interval by bootstrap.
 json ratio_of(const Runs& ours, const Runs& others) {
   std::mt19937 random(1);
   std::uniform_int_distribution<std::size_t> any(0, ours.solve_ms.size() - 1);
@@ -214,7 +216,8 @@ json ratio_of(const Runs& ours, const Runs& others) {
     std::vector<double> a;
     std::vector<double> b;
     for (std::size_t k = 0; k < ours.solve_ms.size(); ++k) {
-      const std::size_t run = any(random);  // The same problem and seed of both.
+      const std::size_t run = any(random);  // Both lists have the same problem and seed at this
+                                            // index.
       a.push_back(ours.solve_ms[run]);
       b.push_back(others.solve_ms[run]);
     }
@@ -226,7 +229,7 @@ json ratio_of(const Runs& ours, const Runs& others) {
           {"high", ratios[975]}};
 }
 
-/// One problem with all validators.
+/// One problem, solved with all validators.
 class Problem {
  public:
   Problem(const ScenePlan& scene, const Settings& settings)
@@ -234,10 +237,11 @@ class Problem {
         settings_(settings),
         edges_(std::make_shared<EdgeChecker>(scene.plan)),
         places_(scene) {
-    (void)edges_->is_free(scene.start);  // The memory of the thread, as FCL has its hierarchies.
+    (void)edges_->is_free(scene.start);  // Allocates the memory of the thread now, as FCL has its
+                                         // hierarchies.
   }
 
-  /// Each validator in turn, another one first each time.
+  /// Runs each validator in turn; another one is first each time.
   void run(std::uint64_t seed, std::vector<Runs>& all) {
     const std::size_t first = seed + all[0].solve_ms.size();
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -313,7 +317,7 @@ class Problem {
     return made;
   }
 
-  /// Counts a path that is proven to collide.
+  /// Counts a path if it is proven to collide.
   void judge(og::PathGeometric& path, const OmplStates& states, std::size_t& colliding,
              std::size_t& undecided) const {
     bool is_undecided = false;
@@ -333,12 +337,12 @@ class Problem {
   const ScenePlan& scene_;
   const Settings& settings_;
   std::shared_ptr<EdgeChecker> edges_;
-  // Blocked is what is nearer than 0.1 um.
+  // Bodies nearer than 0.1 um count as blocked.
   EdgeChecker judge_{scene_.plan, {.tolerance = 1e-7, .extra_clearance = 0.0}};
   FclPlaces places_;
 };
 
-/// Puts plates before the robot that leave the start and the goals free.
+/// Puts plates in front of the robot where they leave the start and the goals free.
 Scene with_plates(const Scene& scene, const Settings& settings, int problem, ShapeCache& cache) {
   constexpr int kTries = 100;
   Scene made = scene;

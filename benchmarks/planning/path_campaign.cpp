@@ -1,15 +1,20 @@
-// The truth of paths: planned, retimed, as they are read back from their files.
+// Verifies paths as they are read back from their files, both planned and retimed.
 //
 //   path_campaign [--first N] [--seeds N] [--part K/N] [--shortcuts N] [--verify EVERY]
 //                 [--fcl EVERY] [--retime EVERY] [--walls EVERY] OUTPUT.json
 //
-// MotionBenchMaker's 400 problems of the Panda, each with N seeds from the first one on. Every path
-// is written and read back. Of each N paths one is judged where an option has the number N: by
-// `verify`'s code (--verify, 1 by default), by FCL at each 0.25 degrees (--fcl, 1), as trajectories
-// in all modes, which FCL tests as the controller interpolates their files (--retime, 10), and with
-// a wall of 10 micrometres across it, with which its proof has to fail (--walls, 50). Parts,
-// problem by problem, run side by side. Processor times are those of one thread. Needs
-// FIRSTCONTACT_DATA_DIR.
+// The problems are MotionBenchMaker's 400 problems of the Panda, each with N seeds from the first
+// one on. Every path is written and read back. An option with the number EVERY judges one path in
+// EVERY:
+//
+// - --verify (1 by default): by the code of `verify`.
+// - --fcl (1): by FCL at each 0.25 degrees.
+// - --retime (10): as trajectories in all modes, which FCL tests as the controller interpolates
+//   their files.
+// - --walls (50): with a wall of 10 micrometres across the path, with which its proof has to fail.
+//
+// Parts run side by side, problem by problem. Processor times are those of one thread. The program
+// needs FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +55,10 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double kStep = 0.25 * std::numbers::pi / 180.0;  // [rad]  Of the joint that moves most.
-constexpr double kTimeStep = 1e-3;                         // [s]    Of a controller.
-constexpr double kWall = 1e-5;                             // [m]    Thickness.
+constexpr double kStep = 0.25 * std::numbers::pi / 180.0;  // [rad]  Step of the joint that moves
+                                                           // most.
+constexpr double kTimeStep = 1e-3;                         // [s]    Period of a controller.
+constexpr double kWall = 1e-5;                             // [m]    Thickness of a wall.
 
 struct Settings {
   std::uint64_t first = 1;
@@ -67,7 +73,7 @@ struct Settings {
   std::string output;
 };
 
-/// What was counted; from `unsolved` on all should be 0.
+/// Counts of a campaign; from `unsolved` to `refused` all should be 0.
 struct Counts {
   int problems = 0;
   int paths = 0;
@@ -77,16 +83,16 @@ struct Counts {
   int trajectories = 0;
   int walls = 0;
   int unsolved = 0;
-  int not_verified = 0;          ///< By the code of `verify`, from the file.
+  int not_verified = 0;          ///< Paths that the code of `verify` does not prove, from the file.
   int colliding = 0;             ///< Paths with a sample that FCL finds in collision.
-  int trajectories_refused = 0;  ///< No proven retiming.
+  int trajectories_refused = 0;  ///< Trajectories without a proven retiming.
   int trajectories_colliding = 0;
   int walls_unseen = 0;    ///< Paths that are still proven with a wall across them.
-  int refused = 0;         ///< Questions that are none.
-  double planning = 0.0;   ///< [us]  Of the processor, as those below.
+  int refused = 0;         ///< Questions that are not valid.
+  double planning = 0.0;   ///< [us]  Processor time, as are those below.
   double verifying = 0.0;  ///< [us]
-  double fcl = 0.0;        ///< [us]  Of paths.
-  double retiming = 0.0;   ///< [us]  With the tests of FCL.
+  double fcl = 0.0;        ///< [us]  Tests of paths.
+  double retiming = 0.0;   ///< [us]  Includes the tests by FCL.
 
   [[nodiscard]] json summary() const {
     return {{"problems", problems},
@@ -110,7 +116,7 @@ struct Counts {
   }
 };
 
-/// One problem: its scene for the planner, and the same for FCL.
+/// One problem: its scene for the planner, and the same scene for FCL.
 class Problem {
  public:
   Problem(std::string name, ScenePlan scene, const Settings& settings, Counts& counts)
@@ -161,7 +167,7 @@ class Problem {
   }
 
  private:
-  /// [us]  Processor time since then, which becomes now.
+  /// [us]  Returns the processor time since `then`, and sets `then` to now.
   static double since(double& then) {
     const double now = thread_time();
     return now - std::exchange(then, now);
@@ -223,7 +229,7 @@ class Problem {
     return false;
   }
 
-  /// A plate at a vertex of the last link with geometry, somewhere on the path.
+  /// Puts a plate at a vertex of the last link with geometry, somewhere on the path.
   void put_a_wall_across(PlannedPath path, std::uint64_t seed) {
     RandomNumbers random(seed + 1'000'003);
     const std::size_t edge = random.below(path.waypoints.size() - 1);

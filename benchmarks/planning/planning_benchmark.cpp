@@ -1,4 +1,4 @@
-// Plans of the Panda in MotionBenchMaker's 400 problems, and the edges that they are made of; or
+// Times plans of the Panda in MotionBenchMaker's 400 problems and the tests of their edges, or
 // plans in one scene.
 //
 //   planning_benchmark [--seeds N] [--every N] [--only plans|edges] [--time SECONDS] [--range RAD]
@@ -6,7 +6,7 @@
 //   planning_benchmark --scene SCENE.json [--seeds N] [--time SECONDS] [--range RAD]
 //                      [--shortcuts N] [OUTPUT.json]
 //
-// Processor times of one thread. The problems need FIRSTCONTACT_DATA_DIR.
+// Times are processor times of one thread. The problems need FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +62,14 @@ json summary_of(const std::vector<double>& values) {
           {"max", quantile(values, 1.0)}};
 }
 
-/// Times of plans, in milliseconds; a run without a path counts with the time that it was allowed.
+/// [ms]  Times of plans; a run without a path counts with the time that it was allowed.
 struct PlanTimes {
   std::vector<double> plan;
   std::vector<double> whole;
-  std::vector<double> rest;  // Of solved runs: shortcuts and the proof.
+  std::vector<double> rest;  // Shortcuts and the proof, in solved runs.
   std::vector<double> edges;
   std::vector<double> places;
-  std::vector<double> shortened;  // Cost after the shortcuts over that before.
+  std::vector<double> shortened;  // Cost after the shortcuts, divided by the cost before.
   std::size_t solved = 0;
   std::size_t solved_in_a_second = 0;
   std::size_t undecided = 0;
@@ -122,7 +122,7 @@ void for_each_problem(const Settings& settings, const std::string& family, const
   }
 }
 
-/// Plans once; `take` gets the result, and the times [ms] of the first path and of the whole.
+/// Plans once; `take` gets the result, and the times [ms] of the first path and of the whole run.
 template <class Take>
 void plan_once(const Settings& settings, const ScenePlan& scene, std::uint64_t seed,
                const Take& take) {
@@ -185,7 +185,7 @@ json plans_in_scene(const Settings& settings) {
   return times.summary();
 }
 
-/// Edges from the start and goal of a problem in random directions.
+/// Times edges from the start and goal of a problem in random directions.
 json edges(const Settings& settings) {
   json out = json::array();
   for (const double length : kEdgeLengths) {

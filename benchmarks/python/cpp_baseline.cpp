@@ -1,6 +1,6 @@
 /// @file
-/// What benchmarks/python/overhead.py asks from Python, asked from C++: the time of one query, and
-/// of a batch by one and by two threads. Prints JSON.
+/// C++ counterpart of benchmarks/python/overhead.py: the time of one query, and of a batch by one
+/// and by two threads. The program prints JSON.
 ///
 ///     cpp_baseline CALLS
 
@@ -38,8 +38,9 @@ double thread_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// [us]  Two triangles that no motion of theirs brings together: the least work of a query. As from
-/// Python every call makes a result of its own, and the fastest of many short turns counts.
+/// [us]  Times a query with the least work: two triangles that never come near each other.
+///
+/// Every call makes its own result, as from Python. The fastest of many short turns counts.
 double time_of_call(int calls) {
   const Shape triangle({.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
   const Motion rest = Motion::fixed();
@@ -89,7 +90,7 @@ struct Batch {
   int contacts = 0;
 };
 
-/// On the wall, from motions to results.
+/// Measures the wall time of a batch, from motions to results.
 Batch time_of_batch(const Shape& shape, const std::vector<Motion>& motions, int threads) {
   const Motion rest = Motion::fixed();
   const auto begin = std::chrono::steady_clock::now();

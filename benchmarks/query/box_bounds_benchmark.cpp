@@ -1,4 +1,5 @@
-// The kernel of the search, on each instruction set that this processor has: 16 pairs of boxes.
+// Times the kernel of the search on each instruction set that this processor has: 16 pairs of
+// boxes.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,8 +26,9 @@ void choose(std::int64_t targets) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-/// Nodes of two knots that move and turn, different ones each time, all of them in the cache; one
-/// pair of nodes at a time or two.
+/// Times the bounds of nodes of two knots that move and turn, one pair of nodes at a time or two.
+///
+/// The nodes differ each time; all of them are in the cache.
 void bound_knots(benchmark::State& state, std::int64_t target, std::size_t at_once) {
   choose(target);
   const Hierarchy knot = build_hierarchy(normalised(torus_knot(1'000)));
@@ -54,7 +56,7 @@ void bound_knots(benchmark::State& state, std::int64_t target, std::size_t at_on
     i += at_once;
   }
   state.SetItemsProcessed(state.iterations() * 16 * static_cast<std::int64_t>(at_once));
-  choose(0);  // All that the processor has.
+  choose(0);  // Back to all instruction sets that the processor has.
 }
 
 }  // namespace

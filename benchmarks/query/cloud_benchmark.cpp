@@ -1,5 +1,5 @@
-// First contact of the bunny (69,451 triangles) with a cloud of a million points, and with as many
-// triangles of the same surface; and what it takes to make these shapes.
+// Times the first contact of the bunny (69,451 triangles) with a cloud of a million points, and
+// with as many triangles of the same surface. A second part times the making of these shapes.
 
 #include <benchmark/benchmark.h>
 
@@ -20,8 +20,9 @@ namespace {
 
 constexpr std::size_t kPoints = 1'000'000;
 
-/// A million points of a room of 10 m by 10 m by 3 m: its floor and a rough wall, as a scanner sees
-/// them.
+/// Makes a million points of a room of 10 m by 10 m by 3 m, as a scanner measures it.
+///
+/// The points lie on the floor and on a rough wall.
 std::vector<Eigen::Vector3d> scanned_room() {
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<double> side(-5.0, 5.0);
@@ -57,7 +58,7 @@ double lowest(const Mesh& mesh) {
   return z;
 }
 
-/// The ways in which the bunny moves over the floor at z = 0, at rest in the cloud's frame.
+/// Motions of the bunny over the floor at z = 0, which rests in the cloud's frame.
 enum Course { kFarAway, kPasses, kFalls, kSkims };
 
 Motion course(int kind) {

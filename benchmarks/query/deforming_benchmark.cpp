@@ -1,5 +1,6 @@
-// First contact of a sheet of 9,800 triangles whose vertices move with the bunny (69,451 triangles)
-// that moves rigidly, beside the same sheet when it is rigid; and what it takes to deform it.
+// Times the first contact of the bunny (69,451 triangles), which moves rigidly, with a deforming
+// sheet of 9,800 triangles. The same sheet without deformation is timed beside it, and so is the
+// deformation.
 
 #include <benchmark/benchmark.h>
 
@@ -20,7 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr int kSide = 70;        // Squares of two triangles each.
+constexpr int kSide = 70;        // Number of squares along a side, of two triangles each.
 constexpr double kHeight = 1.3;  // [m]  The bunny's radius is 1.
 
 const Mesh& sheet() {
@@ -52,7 +53,7 @@ Points moved(const Place& place) {
   return to;
 }
 
-/// Where the sheet goes.
+/// Motion of the sheet.
 struct Course {
   const char* name;
   Points to;

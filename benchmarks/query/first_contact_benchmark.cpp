@@ -1,9 +1,9 @@
-// First contact of random motions, side by side with FCL 0.7.
+// Times first contacts of random motions, side by side with FCL 0.7.
 //
 //   first_contact_benchmark [--quick] OUTPUT.json
 //
-// All are asked query by query in turn, so that load on the machine hits all alike. Times are
-// processor times of the one thread. "Cold": the caches were filled with something else before the
+// Every query goes to all methods in turn, so that load on the machine affects all of them alike.
+// Times are processor times of the one thread. "Cold": other data filled the caches before the
 // query. "Warm": the same query again, the median of three.
 
 #include <cmath>
@@ -33,17 +33,18 @@ namespace {
 using nlohmann::json;
 
 constexpr double kTolerance = 1e-6;  // [m]
-constexpr double kWrongTime = 1e-3;  // A peer's time is wrong if this far off.
+constexpr double kWrongTime = 1e-3;  // [-]  Error from which a peer's time counts as wrong.
 constexpr std::uint64_t kSeed = 20261121;
 
 struct Scale {
   int motions = 500;
-  /// Of these, fcl::continuousCollide is asked as many as make so many triangles together, for its
-  /// time grows with them: about a second for 70K.
+  /// Limits the motions that fcl::continuousCollide tests, by the sum of their triangles.
+  ///
+  /// Its time grows with that sum: about a second for 70,000 triangles.
   std::size_t continuous_collide_triangles = 1'500'000;
 };
 
-/// Times of one method, or its ratios to ours; hits and misses apart.
+/// Times of one method, or its ratios to ours; hits and misses are separate.
 class Sample {
  public:
   void add(double value, bool hit) { (hit ? hits_ : misses_).push_back(value); }
@@ -67,7 +68,7 @@ class Sample {
   std::vector<double> misses_;
 };
 
-/// A peer's answers held against the loop's.
+/// Comparison of a peer's answers with those of the distance loop.
 struct Verdicts {
   int asked = 0;
   int missed = 0;
@@ -94,7 +95,7 @@ struct Verdicts {
   }
 };
 
-/// One pair of meshes, asked by every method.
+/// One pair of meshes, tested by every method.
 class Comparison {
  public:
   Comparison(std::string name, const Mesh& mesh)
@@ -153,7 +154,7 @@ class Comparison {
     }
   }
 
-  /// Our answer against the loop's, and against FCL's distance at our time.
+  /// Compares our answer with that of the distance loop, and with FCL's distance at our time.
   void compare(const PlainMotionPair& pair, const PeerAnswer& truth) {
     const bool hit = result_.verdict == Verdict::contact;
     if (hit != truth.contact || result_.verdict == Verdict::undecided) {

@@ -1,5 +1,5 @@
-// How the time of a query grows with the mesh: the same motions on torus knots of 1K to 1M
-// triangles.
+// Times the same motions on torus knots of 1,000 to 1,000,000 triangles, to show how the time of a
+// query grows.
 //
 //   growth_benchmark [--quick] OUTPUT.json
 //

@@ -18,7 +18,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-/// A sphere of radius 1 m by circles of latitude: its poles are fans of needles.
+/// Makes a sphere of radius 1 m by circles of latitude; its poles are fans of thin triangles.
 Shape needle_sphere() {
   constexpr std::uint32_t kStacks = 71;
   constexpr std::uint32_t kSlices = 71;
@@ -47,7 +47,7 @@ Shape needle_sphere() {
   return Shape(std::move(mesh));
 }
 
-/// A square of the plane z = 0, 2 cells^2 triangles.
+/// Makes a square in the plane z = 0, of 2 cells^2 triangles.
 ///
 /// @param half_width  [m]
 Shape grid(std::uint32_t cells, double half_width) {
@@ -69,7 +69,7 @@ Shape grid(std::uint32_t cells, double half_width) {
   return Shape(std::move(mesh));
 }
 
-/// Twelve triangles.
+/// Makes a box of twelve triangles.
 ///
 /// @param half  [m]  half the size in x, y, z
 Shape box(const Vector3d& centre, const Vector3d& half) {
@@ -106,9 +106,9 @@ struct Shapes {
   Shape knot = Shape(normalised(torus_knot(10'000)));
 };
 
-/// B's south pole passes over A's north pole at t = 0.5, `height` above it.
+/// Makes a case in which B's south pole passes `height` above A's north pole at t = 0.5.
 ///
-/// @param spin  [rad]  of both bodies over the step, in world axes; B's reversed
+/// @param spin  [rad]  rotation of A over the step, in world axes; B's is reversed
 HardCase grazing(const Shapes& shapes, std::string name, double height, const Vector3d& spin,
                  Verdict verdict) {
   const Quaterniond half_back(Eigen::AngleAxisd(-0.5 * spin.norm(), spin.stableNormalized()));
@@ -140,7 +140,7 @@ void add_grazing(const Shapes& shapes, std::vector<HardCase>& cases) {
   }
 }
 
-/// B slides at a constant height over the grid.
+/// Makes a case in which B slides over the grid at a constant height.
 HardCase sliding(const Shapes& shapes, std::string name, const Shape& B, double gap, double spin) {
   return {.name = std::move(name),
           .A = shapes.fine_grid,
@@ -162,7 +162,7 @@ void add_sliding(const Shapes& shapes, std::vector<HardCase>& cases) {
   }
 }
 
-/// B comes down flat on A from 0.5 m, through it to 0.5 m below.
+/// Makes a case in which B comes down flat on A from 0.5 m, and passes through it to 0.5 m below.
 HardCase landing(std::string name, const Shape& A, const Shape& B, double spin) {
   return {.name = std::move(name),
           .A = A,
@@ -190,7 +190,7 @@ void add_landing(const Shapes& shapes, std::vector<HardCase>& cases) {
   cases.push_back(std::move(everything));
 }
 
-/// B leaves A upwards from a height at the start.
+/// Makes a case in which B leaves A upwards from a height at the start.
 HardCase leaving(std::string name, const Shapes& shapes, const Shape& B, double height,
                  StartContacts start_contacts, Verdict verdict) {
   return {
@@ -231,7 +231,7 @@ void add_turning(const Shapes& shapes, std::vector<HardCase>& cases) {
            .verdict = verdict});
     };
     cubes("hit", {2.0, 0.3, 0.2}, {-2.0, 0.0, 0.0}, Verdict::contact);
-    // Their corners reach sqrt(3) / 2 each.
+    // The corners of each cube reach sqrt(3) / 2.
     cubes("pass", {-2.0, 1.74, 0.0}, {4.0, 0.0, 0.0}, Verdict::free);
   }
   for (const double degrees : {90.0, 180.0, 720.0}) {
@@ -247,7 +247,8 @@ void add_turning(const Shapes& shapes, std::vector<HardCase>& cases) {
   }
 }
 
-/// Needles, points and nearly parallel edges, met at t = 0.5 by B coming down 1 m.
+/// Makes a case in which B comes down 1 m and meets A at t = 0.5: needles, points, nearly parallel
+/// edges.
 HardCase meeting(std::string name, Shape A, Shape B) {
   return {.name = std::move(name),
           .A = std::move(A),

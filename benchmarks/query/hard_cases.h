@@ -1,6 +1,6 @@
 /// @file
-/// Inputs on which searches for first contact are known to break down: ties, grazing, sliding,
-/// many turns, needles. What the benchmark times, a test checks.
+/// Inputs on which searches for first contact are known to fail: ties, grazing, sliding, many
+/// turns, needles. The benchmark times the same cases that a test checks.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace firstcontact::benchmarks {
 
-/// A question and what is known about its answer.
+/// Question with the facts that are known about its answer.
 struct HardCase {
   std::string name;
   Shape A;
@@ -21,14 +21,14 @@ struct HardCase {
   Motion motion_B;
   Verdict verdict;
   std::optional<double> t = {};  ///< [-]  First contact in closed form.
-  /// Flat on flat, the list of all contacts is much longer than the search for the first.
+  /// Ends with the first contact: for flat on flat, the list of all contacts takes far longer.
   FirstContactOptions options = {.contacts = ContactState::first};
 
   [[nodiscard]] MovingShape moving_A() const { return {A, motion_A}; }
   [[nodiscard]] MovingShape moving_B() const { return {B, motion_B}; }
 };
 
-/// All of them; the names are unique.
+/// Makes all hard cases; the names are unique.
 [[nodiscard]] std::vector<HardCase> hard_cases();
 
 }  // namespace firstcontact::benchmarks

@@ -1,4 +1,4 @@
-// The hard cases, each with its counts of work; every one should take less than 10 ms.
+// Times the hard cases, each with its counts of work; every case should take less than 10 ms.
 
 #include <benchmark/benchmark.h>
 

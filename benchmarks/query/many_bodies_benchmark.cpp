@@ -1,11 +1,11 @@
-// First contact of many moving bodies, side by side with FCL's dynamic broad phase, which looks at
-// 100 instants of the same step.
+// Times the first contact of many moving bodies, side by side with FCL's dynamic broad phase. FCL
+// tests 100 instants of the same step.
 //
 //   many_bodies_benchmark [--quick] OUTPUT.json
 //
-// Torus knots of 5,000 triangles at random places, so that about one pair for each 20 bodies comes
-// close; all of them free, or with one pair that meets at 95 % of the step. Wall times after
-// loading, the median of three.
+// The bodies are torus knots of 5,000 triangles at random places. About one pair for each 20 bodies
+// comes close. Either all bodies are free, or one pair meets at 95 % of the step. Times are wall
+// times after loading, the median of three.
 
 #include <chrono>
 #include <cmath>
@@ -49,7 +49,7 @@ std::vector<PlainMotion> random_scene(std::size_t n) {
   return motions;
 }
 
-/// The scene as a set, with every pair in contact taken apart.
+/// Makes a set of the scene's bodies, after it has taken every pair in contact apart.
 BodySet free_set(const Shape& shape, std::vector<PlainMotion>& motions) {
   BodySet bodies;
   for (const PlainMotion& motion : motions) {
@@ -70,7 +70,7 @@ BodySet free_set(const Shape& shape, std::vector<PlainMotion>& motions) {
   return bodies;
 }
 
-/// Two more bodies, far from the others, that meet at 95 % of the step.
+/// Adds two bodies, far from the others, that meet at 95 % of the step.
 void add_late_contact(const Shape& shape, std::vector<PlainMotion>& motions, BodySet& bodies) {
   const PlainMotion target{.position = {0.0, 0.0, -1000.0}};
   PlainMotion arrow{.position = {4.0, 0.0, -1000.0}, .translation = {-4.0, 0.0, 0.0}};

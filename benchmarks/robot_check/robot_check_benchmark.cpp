@@ -1,9 +1,9 @@
-// Certified checks of robots, side by side with FCL's discrete tests of the same motions, and how
-// their time grows.
+// Times certified checks of robots, side by side with FCL's discrete tests of the same motions, and
+// shows how the times grow.
 //
 //   robot_check_benchmark [--quick] [--only NAME] OUTPUT.json
 //
-// Processor times of one thread. Needs FIRSTCONTACT_DATA_DIR.
+// Times are processor times of one thread. The program needs FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -45,19 +45,21 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double kFar = 0.05;  // [m]  Free by that much from the surroundings: far.
+constexpr double kFar = 0.05;  // [m]  A motion is "far" if it stays this far from the surroundings.
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kPlannersSteps[] = {1.0, 5.0};  // [degrees]  Of the joint that goes farthest.
+constexpr double kPlannersSteps[] = {1.0, 5.0};  // [degrees]  Steps of the joint that goes
+                                                 // farthest.
 
 fs::path data_dir() {
   const char* dir = std::getenv("FIRSTCONTACT_DATA_DIR");
   return dir == nullptr ? fs::path() : fs::path(dir);
 }
 
-/// A robot among bodies at rest, for both sides.
+/// A robot among bodies at rest, for our check and FCL's.
 class Cell {
  public:
-  /// @param sources  what the bodies of the scene were made of; meshes where there are none
+  /// @param sources  the descriptions that the bodies of the scene were made from; meshes where
+  ///                 empty
   Cell(const RobotScene& scene, const std::vector<BodyShape>& sources)
       : model_(scene.robot_motion(0).model()),
         kinematics_(model_),
@@ -73,13 +75,13 @@ class Cell {
     return checker_.check({.contacts = ContactState::first, .threads = 1});
   }
 
-  /// Whether the surroundings stay far away.
+  /// Returns whether the robot stays farther than kFar from the surroundings.
   bool is_far(const StraightMotion& motion) {
     far_.set_motion(0, motion.of(model_));
     return far_.check({.contacts = ContactState::none, .threads = 1}).verdict == Verdict::free;
   }
 
-  /// The first sample in collision; none where there is none.
+  /// Returns the first sample in collision; none where every sample is free.
   std::optional<double> sample(const StraightMotion& motion, double degrees) {
     const int steps =
         std::max(1, static_cast<int>(std::ceil(motion.longest_joint() / (degrees * kDegree))));
@@ -109,7 +111,7 @@ class Cell {
   FclRobot peer_;
 };
 
-/// [us]  Of a few turns the fastest: a planner's caches are warm.
+/// [us]  Times a query a few turns and returns the fastest, as a planner's caches are warm.
 template <class Query>
 double best_of(const Query& query) {
   constexpr int kTurns = 4;
@@ -144,7 +146,7 @@ struct Times {
   }
 };
 
-/// The answers of one set of motions.
+/// Counts and times of the answers for one set of motions.
 class Tally {
  public:
   void take(Cell& cell, const StraightMotion& motion) {
@@ -209,12 +211,12 @@ Configuration configuration_of(const RobotModel& model, const JointPositions& po
   return q;
 }
 
-/// Where the robot is at its start.
+/// Returns the configuration of the robot at its start.
 Configuration start_of(const RobotQuestion& question, const RobotModel& model) {
   return configuration_of(model, read_planning_request(question.request, model).start);
 }
 
-/// Motions that start at the starts of MotionBenchMaker's problems, in random directions.
+/// Times motions from the starts of MotionBenchMaker's problems, in random directions.
 json panda_in_scenes(bool quick) {
   ShapeCache cache;
   std::map<double, Tally> tallies;
@@ -240,7 +242,7 @@ json panda_in_scenes(bool quick) {
   return out;
 }
 
-/// A mesh, scaled to a length along its longest side, its middle at the origin.
+/// Reads a mesh and scales it to a length along its longest side, with its middle at the origin.
 Shape scaled(const fs::path& path, double length) {
   Mesh mesh = read_mesh(path);
   Eigen::AlignedBox3d box;
@@ -267,7 +269,7 @@ std::vector<DisabledPair> all_pairs(const RobotModel& model) {
   return pairs;
 }
 
-/// Links that touch at rest are not tested.
+/// Returns the pairs of links that touch at rest, which are not tested.
 std::vector<DisabledPair> touching_pairs(const RobotModel& model) {
   std::vector<DisabledPair> pairs;
   for (const LinkPairIndex& pair : touching_links(at_rest(model), 1e-3)) {
@@ -304,7 +306,7 @@ json random_motions(const std::string& name, const RobotModel& model, const Shap
   return out;
 }
 
-/// Its URDF has no collision geometry: what is seen stands for it.
+/// Reads the Puma with its visual geometry, as its URDF has no collision geometry.
 RobotModel read_puma() {
   ShapeCache cache;
   return cache
@@ -332,7 +334,7 @@ json self_collision(bool quick) {
   return out;
 }
 
-/// Times of one sequence of checks.
+/// Summarises the times [us] of one sequence of checks.
 json sequence_summary(const std::vector<double>& times_us) {
   return {{"count", times_us.size()},
           {"median_us", quantile(times_us, 0.5)},
@@ -340,7 +342,7 @@ json sequence_summary(const std::vector<double>& times_us) {
           {"max_us", quantile(times_us, 1.0)}};
 }
 
-/// A captured walk among obstacles that line its way, one check for each pair of frames.
+/// Times a captured walk among obstacles along its way, one check for each pair of frames.
 json avatar(bool quick) {
   constexpr std::size_t kTriangles = 300'000;
   const AsfSkeleton skeleton = read_asf(data_dir() / "mocap/cmu/02.asf");
@@ -390,7 +392,7 @@ json avatar(bool quick) {
   return json::array({row});
 }
 
-/// A hand with fingers of two bars each, every bar 2 cm above a block of its own.
+/// Times a hand with fingers of two bars each; every bar is 2 cm above its own block.
 json hand(int links) {
   RobotDescription body{.name = "hand", .links = {{"palm", {}, {}}}, .joints = {}};
   RobotScene scene;
@@ -433,7 +435,7 @@ json hand(int links) {
           {"free", found.verdict == Verdict::free}};
 }
 
-/// The Puma passes a knot of ever more triangles.
+/// Times the Puma as it passes a knot of more and more triangles.
 json passing(const RobotModel& puma, std::size_t triangles, int motions) {
   Mesh knot = torus_knot(triangles);
   for (Eigen::Vector3d& v : knot.vertices) {
@@ -477,8 +479,9 @@ json growth(bool quick) {
   return out;
 }
 
-/// Robots that touch in very many pairs of triangles at nearly the same time: a round tool that
-/// comes down on a round post, flat on flat, and turns about its axis meanwhile.
+/// Times robots that touch in very many pairs of triangles at nearly the same time.
+///
+/// A round tool comes down on a round post, flat on flat, and turns about its axis meanwhile.
 json ties(bool quick) {
   const double length = 0.2;  // [m]
   json out = json::array();
@@ -527,7 +530,7 @@ json ties(bool quick) {
   return out;
 }
 
-/// The least distance of a robot's motion beside its check.
+/// Times the least distance of a robot's motion beside its check.
 json closest(bool quick) {
   ShapeCache cache;
   test::Random random(20261125);

@@ -63,7 +63,8 @@ StraightMotion random_motion(const RobotModel& model, const Configuration& from,
   Configuration way(from.size());
   double square = 0.0;
   for (std::size_t k = 0; k < way.size(); ++k) {
-    // Of three uniform numbers: near enough to normal, so that all directions are alike.
+    // The sum of three uniform numbers is close enough to normal, so that all directions are about
+    // as likely.
     way[k] = turns(model.joints()[k])
                  ? random.uniform(-1.0, 1.0) + random.uniform(-1.0, 1.0) + random.uniform(-1.0, 1.0)
                  : 0.0;

@@ -1,5 +1,5 @@
 /// @file
-/// A robot that moves straight from one configuration to another, as a planner asks for it.
+/// Straight motion of a robot from one configuration to another, as a planner needs it.
 
 #pragma once
 
@@ -14,8 +14,9 @@
 
 namespace firstcontact::benchmarks {
 
-/// Configurations have a number [rad or m] for every joint; that of a fixed joint, or of one that
-/// mimics, has no meaning.
+/// Configuration with a number [rad or m] for every joint.
+///
+/// The number of a fixed joint, or of one that mimics another, has no meaning.
 using Configuration = std::vector<double>;
 
 struct StraightMotion {
@@ -28,21 +29,22 @@ struct StraightMotion {
   [[nodiscard]] Configuration at(double t) const;
 };
 
-/// Anywhere within the limits; half a turn where there are none.
+/// Draws a configuration within the limits; within half a turn where there are none.
 [[nodiscard]] Configuration random_configuration(const RobotModel& model, test::Random& random);
 
-/// From a configuration in a random direction of the revolute joints, within their limits.
+/// Makes a motion from a configuration in a random direction of the revolute joints, within their
+/// limits.
 ///
-/// @param length  [rad]  Euclidean; less where limits end the way
+/// @param length  [rad]  Euclidean; the motion is shorter where a limit ends it
 [[nodiscard]] StraightMotion random_motion(const RobotModel& model, const Configuration& from,
                                            double length, test::Random& random);
 
-/// Forward kinematics in plain doubles, as fast as planners have it.
+/// Forward kinematics in plain doubles, as fast as that of planners.
 class PlainKinematics {
  public:
   explicit PlainKinematics(const RobotModel& model);
 
-  /// X_WL of every link; valid until the next call.
+  /// Returns X_WL of every link; valid until the next call.
   [[nodiscard]] const std::vector<Eigen::Isometry3d>& places(const Configuration& q);
 
  private:
@@ -52,11 +54,11 @@ class PlainKinematics {
     JointType type;
     Eigen::Isometry3d X_PJ;
     Eigen::Vector3d axis;
-    std::size_t source;  // The joint whose coordinate it follows.
+    std::size_t source;  // The joint whose coordinate this joint follows.
     double multiplier;
     double offset;
   };
-  std::vector<Step> steps_;  // Parents first.
+  std::vector<Step> steps_;  // Parents stand before their children.
   std::vector<Eigen::Isometry3d> places_;
 };
 

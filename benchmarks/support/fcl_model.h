@@ -1,5 +1,5 @@
 /// @file
-/// A mesh as FCL takes it.
+/// Mesh in the form that FCL reads.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// What FCL 0.7 offers for the same question, behind one small class.
+/// FCL 0.7's methods for the first contact of two meshes, behind one small class.
 
 #pragma once
 
@@ -13,10 +13,10 @@ namespace firstcontact::benchmarks {
 
 struct PeerAnswer {
   bool contact = false;
-  double t = 1.0;  ///< [-]  Of contact, or 1.
+  double t = 1.0;  ///< [-]  Time of contact, or 1.
 };
 
-/// Two meshes as FCL models, and three ways to ask FCL for their first contact.
+/// Two meshes as FCL models, with three ways to compute their first contact by FCL.
 class FclPeer {
  public:
   FclPeer(const Mesh& A, const Mesh& B);
@@ -24,19 +24,21 @@ class FclPeer {
   FclPeer(FclPeer&&) noexcept;
   FclPeer& operator=(FclPeer&&) noexcept;
 
-  /// [m]  fcl::distance at t; not positive where the meshes meet.
+  /// [m]  Computes fcl::distance at t; not positive where the meshes meet.
   [[nodiscard]] double distance(const PlainMotionPair& motions, double t) const;
 
-  /// Conservative advancement over fcl::distance: steps of distance / speed, where the relative
-  /// speed of any two points is at most |translation| + sum of angle x radius. Contact is a
-  /// distance of at most `tolerance` [m]. Right, and so the reference.
+  /// Advances conservatively by fcl::distance, in steps of distance / speed.
+  ///
+  /// The relative speed of any two points is at most |translation| + sum of angle x radius. Contact
+  /// is a distance of at most `tolerance` [m]. The result is correct, and so it is the reference.
   [[nodiscard]] PeerAnswer distance_loop(const PlainMotionPair& motions, double tolerance) const;
 
-  /// FCL's advancement on the oriented boxes and swept spheres as they are, from its detail
-  /// headers: the public function refits both trees at every step instead.
+  /// Runs FCL's advancement on the oriented boxes and swept spheres, from its detail headers.
+  ///
+  /// The public function refits both trees at every step; this one leaves them as they are.
   [[nodiscard]] PeerAnswer oriented_advancement(const PlainMotionPair& motions) const;
 
-  /// fcl::continuousCollide with CCDC_CONSERVATIVE_ADVANCEMENT on OBBRSS models.
+  /// Runs fcl::continuousCollide with CCDC_CONSERVATIVE_ADVANCEMENT on OBBRSS models.
   [[nodiscard]] PeerAnswer continuous_collide(const PlainMotionPair& motions) const;
 
  private:

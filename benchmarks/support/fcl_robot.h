@@ -1,5 +1,5 @@
 /// @file
-/// FCL's discrete tests of a robot among bodies at rest, the way MoveIt does them.
+/// FCL's discrete collision tests of a robot among bodies at rest, as MoveIt uses them.
 
 #pragma once
 
@@ -18,25 +18,26 @@
 
 namespace firstcontact::benchmarks {
 
-/// A dynamic tree of boxes for the robot and one for the surroundings; boxes, spheres and cylinders
-/// as FCL's primitives, all else as meshes.
+/// Dynamic trees of boxes for the robot and for the surroundings.
+///
+/// Boxes, spheres and cylinders are FCL's primitives, all other shapes meshes.
 class FclRobot {
  public:
   FclRobot();
   ~FclRobot();
 
-  /// @param X_LG  of the geometry in its link
+  /// @param X_LG  pose of the geometry in its link
   void add_link_geometry(std::size_t link, const Shape& shape, const Eigen::Isometry3d& X_LG);
-  /// @param source  what the shape was made of
+  /// @param source  the description that the shape was made from
   void add_obstacle(const BodyShape& source, const Shape& shape, const Eigen::Isometry3d& X_WG);
 
   /// @param tested   pairs of links, first < second
   void set_tested_links(std::span<const std::array<std::size_t, 2>> tested);
 
-  /// After all has been added.
+  /// Completes the trees; to be called after all shapes were added.
   void set_up();
 
-  /// Whether anything collides with the links at their places. Ends at the first collision.
+  /// Returns whether the links at these poses collide with anything; ends at the first collision.
   [[nodiscard]] bool collides(const std::vector<Eigen::Isometry3d>& X_WL);
 
  private:
@@ -46,10 +47,10 @@ class FclRobot {
 
 /// Fills the peer with the first robot of a scene and all bodies, and sets it up.
 ///
-/// @param sources  what the bodies of the scene were made of; meshes where there are none
+/// @param sources  the descriptions that the bodies were made from; meshes where empty
 void fill(FclRobot& peer, const RobotScene& scene, const std::vector<BodyShape>& sources);
 
-/// What the bodies of a scene are made of.
+/// Returns the descriptions that the bodies of a scene were made from.
 [[nodiscard]] std::vector<BodyShape> sources_of(const Scene& scene);
 
 }  // namespace firstcontact::benchmarks

@@ -19,10 +19,12 @@ class FclScene {
 
   struct Answer {
     bool contact = false;
-    double t = 1.0;  ///< [-]  The first sample in collision, or 1.
+    double t = 1.0;  ///< [-]  Time of the first sample in collision, or 1.
   };
   /// Tests `count` instants from 0 to 1 with fcl::DynamicAABBTreeCollisionManager until one has a
-  /// collision. Sees nothing of the time between them.
+  /// collision.
+  ///
+  /// Collisions between two instants are missed.
   [[nodiscard]] Answer sample(int count);
 
  private:

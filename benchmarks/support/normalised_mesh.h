@@ -1,5 +1,5 @@
 /// @file
-/// Meshes of one size, so that motions and times compare.
+/// Meshes of one size, so that motions and times are comparable.
 
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace firstcontact::benchmarks {
 
-/// The mesh scaled to bounding radius 1 m, with the centre of its bounding box at the origin.
+/// Scales the mesh to bounding radius 1 m, with the centre of its bounding box at the origin.
 [[nodiscard]] Mesh normalised(Mesh mesh);
 
-/// The Stanford bunny (69,451 triangles) of the repository's data, normalised.
+/// Reads the Stanford bunny (69,451 triangles) of the repository's data, normalised.
 [[nodiscard]] Mesh bunny();
 
 }  // namespace firstcontact::benchmarks

@@ -1,5 +1,5 @@
 /// @file
-/// MotionBenchMaker's problems of the Panda, of FIRSTCONTACT_DATA_DIR.
+/// MotionBenchMaker's problems of the Panda, in FIRSTCONTACT_DATA_DIR.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace firstcontact::benchmarks {
 
 inline constexpr const char* kPandaFamilies[] = {"bookshelf_small_panda", "box_panda", "cage_panda",
                                                  "table_pick_panda"};
-inline constexpr int kPandaProblems = 100;  // Of each family, from 1 on.
+inline constexpr int kPandaProblems = 100;  // Number of problems in each family, from 1 on.
 
 inline RobotQuestion panda_problem(const std::filesystem::path& data, const std::string& family,
                                    int problem) {

@@ -15,7 +15,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using test::Random;
 
-/// Moves B along `direction` until it is `gap` away from A; none where it slips past A.
+/// Moves B along `direction` until its gap to A is `gap`; none where B passes beside A.
 std::optional<double> offset_for_gap(const Shape& A, const Shape& B, const Quaterniond& rotation_A,
                                      const Quaterniond& rotation_B, const Vector3d& direction,
                                      double gap, Workspace& workspace) {
@@ -83,7 +83,8 @@ std::vector<PlainMotionPair> random_motions(const Shape& A, const Shape& B, int 
   Workspace workspace;
   std::vector<PlainMotionPair> motions;
   for (int i = 0; i < count; ++i) {
-    // A seed for each, so that shapes that differ a little get motions that differ a little.
+    // Every motion has its own seed, so that slightly different shapes get slightly different
+    // motions.
     Random random(seed + static_cast<std::uint64_t>(i));
     std::optional<PlainMotionPair> pair;
     while (!pair) {

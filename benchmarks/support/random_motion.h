@@ -14,12 +14,12 @@
 
 namespace firstcontact::benchmarks {
 
-/// A motion of constant velocity as plain numbers, from which every peer makes its own.
+/// Motion of constant velocity as plain numbers, from which every peer makes its own motion.
 struct PlainMotion {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]  At t = 0.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]  Position at t = 0.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Over the step.
-  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Over the step.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Displacement over the step.
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Rotation over the step.
 
   [[nodiscard]] Motion motion() const;
   [[nodiscard]] Eigen::Isometry3d pose(double t) const;
@@ -30,11 +30,11 @@ struct PlainMotionPair {
   PlainMotion B;
 };
 
-/// Motions that start at a gap of 0.003 m to 0.5 m, the same for a seed on every run.
+/// Makes motions that start at a gap of 0.003 m to 0.5 m, the same for a seed on every run.
 ///
-/// Each body turns by 0 to 90 degrees about an axis of its own; one in five does not turn. The
-/// bodies move 0.1 m to 3 m relative to each other, either of them a random part of it, and three
-/// in five pairs roughly towards each other.
+/// Each body turns by 0 to 90 degrees about its own axis; one in five does not turn. The bodies
+/// move 0.1 m to 3 m relative to each other, and each does a random part of it. Three in five pairs
+/// move roughly towards each other.
 ///
 /// @param A, B  of bounding radius 1 m about the origin
 [[nodiscard]] std::vector<PlainMotionPair> random_motions(const Shape& A, const Shape& B, int count,

@@ -7,10 +7,11 @@
 
 namespace firstcontact::benchmarks {
 
-/// [us]  Processor time that this thread has used: other load on the machine does not count.
+/// [us]  Returns the processor time that this thread has used; other load on the machine does not
+/// count.
 [[nodiscard]] double thread_time();
 
-/// [us]  Processor time of one call.
+/// [us]  Measures the processor time of one call.
 template <typename Function>
 [[nodiscard]] double time_of(const Function& function) {
   const double begin = thread_time();
@@ -18,10 +19,10 @@ template <typename Function>
   return thread_time() - begin;
 }
 
-/// Fills the caches with something else: reads and writes a buffer larger than all of them.
+/// Fills the caches with other data: reads and writes a buffer larger than all of them.
 void evict_caches();
 
-/// The value that a part q of the sorted values does not exceed; NaN where there are none.
+/// Returns the value that a part q of the sorted values does not exceed; NaN where there are none.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 
 }  // namespace firstcontact::benchmarks

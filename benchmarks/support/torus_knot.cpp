@@ -12,16 +12,17 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTube = 0.4;             // [m]
-constexpr double kLengthPerGirth = 12.5;  // Of the tube: makes the triangles about equilateral.
+constexpr double kLengthPerGirth = 12.5;  // [-]  Length of the tube divided by its girth: triangles
+                                          // become about equilateral.
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// The knot's point at u in [0, 2 pi].
+/// Computes the knot's point at u in [0, 2 pi].
 Vector3d knot(double u) {
   const double r = 2.0 + std::cos(3.0 * u);
   return {r * std::cos(2.0 * u), r * std::sin(2.0 * u), std::sin(3.0 * u)};
 }
 
-/// Two unit normals of the knot at u; they return to themselves after one round.
+/// Two unit normals of the knot at u; after one round both return to their first values.
 struct Frame {
   Vector3d normal;
   Vector3d binormal;

@@ -9,10 +9,10 @@
 
 namespace firstcontact::benchmarks {
 
-/// A tube of radius 0.4 m along the (2, 3) torus knot of radii 2 m and 1 m; closed, its triangles
-/// nearly alike.
+/// Makes a tube of radius 0.4 m along the (2, 3) torus knot of radii 2 m and 1 m; closed, with
+/// nearly equal triangles.
 ///
-/// @param triangles  about as many; at least 200
+/// @param triangles  approximate number of triangles; at least 200
 [[nodiscard]] Mesh torus_knot(std::size_t triangles);
 
 }  // namespace firstcontact::benchmarks

@@ -21,7 +21,7 @@ Vector3d three(const json& v) {
 }
 json three(const Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
-/// What is in the scene is not in this comparison with other engines.
+/// Thrown where a scene has something that this comparison of engines leaves out.
 class NotForPeer : public std::runtime_error {
  public:
   NotForPeer() : std::runtime_error("not for this engine") {}
@@ -47,7 +47,7 @@ LawShape shape_of(const json& shape) {
           {radius, radius, 0.5 * round.at("length").get<double>()}};
 }
 
-/// Of a density of 1000 kg/m^3.
+/// Computes the mass and the moments of inertia for a density of 1000 kg/m^3.
 void fill_mass(LawBody& body) {
   const Vector3d& h = body.shape.half;
   switch (body.shape.kind) {
@@ -61,7 +61,7 @@ void fill_mass(LawBody& body) {
       body.mass = 4e3 / 3.0 * std::numbers::pi * std::pow(h.x(), 3);
       body.moments = Vector3d::Constant(0.4 * body.mass * h.x() * h.x());
       return;
-    case LawShape::Kind::ellipsoid:  // Has its mass given, as a capsule has.
+    case LawShape::Kind::ellipsoid:  // Its mass and inertia are given, as are those of a capsule.
     case LawShape::Kind::capsule:
     case LawShape::Kind::cylinder:
       body.mass = 2e3 * std::numbers::pi * h.x() * h.x() * h.z();

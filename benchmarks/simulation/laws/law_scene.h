@@ -1,5 +1,5 @@
 /// @file
-/// The scenes of laws.py, and the runs that it reads, for engines that know neither.
+/// The scenes of laws.py, and the runs that it reads, for engines without readers of either.
 
 #pragma once
 
@@ -18,7 +18,7 @@ struct LawShape {
   enum class Kind { box, sphere, cylinder, capsule, ellipsoid };
   Kind kind = Kind::box;
   Eigen::Vector3d half =
-      Eigen::Vector3d::Zero();  ///< [m]  A radius stands in x, half a length in z.
+      Eigen::Vector3d::Zero();  ///< [m]  The radius is in x, half the length in z.
 };
 
 enum class LawMotion { rests, spins, free };
@@ -26,28 +26,29 @@ enum class LawMotion { rests, spins, free };
 struct LawBody {
   LawShape shape;
   LawMotion motion = LawMotion::rests;
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Of the centre of mass.
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Position of the centre of mass.
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();        ///< [m/s]
   Eigen::Vector3d w = Eigen::Vector3d::Zero();        ///< [rad/s]  World axes.
   double mass = 0.0;                                  ///< [kg]
-  Eigen::Vector3d moments = Eigen::Vector3d::Zero();  ///< [kg m^2]  About the axes of the body.
+  Eigen::Vector3d moments = Eigen::Vector3d::Zero();  ///< [kg m^2]  Moments of inertia about the
+                                                      ///< axes of the body.
   double restitution = 0.0;
-  Eigen::Vector3d p_CS = Eigen::Vector3d::Zero();  ///< [m]  Of the shape, from the centre of mass.
+  Eigen::Vector3d p_CS = Eigen::Vector3d::Zero();  ///< [m]  Shape's origin from the centre of mass.
 };
 
-/// A robot. Beside the URDF of one with a free base stands the same as MJCF.
+/// Robot of a scene; the URDF of one with a free base has the same robot as MJCF beside it.
 struct LawRobot {
   std::filesystem::path urdf;
-  std::vector<double> positions = {};    ///< In the order of the file.
-  std::vector<double> stiffnesses = {};  ///< [N/m or N m/rad]  Of springs whose rest is at 0.
-  std::vector<double> velocities = {};   ///< Of joints.
-  bool is_free = false;                  ///< At the origin at first.
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of a free base.
+  std::vector<double> positions = {};    ///< Coordinates of joints in the order of the file.
+  std::vector<double> stiffnesses = {};  ///< [N/m or N m/rad]  Stiffnesses of springs at rest at 0.
+  std::vector<double> velocities = {};   ///< Velocities of joints.
+  bool is_free = false;                  ///< Whether the base is free; it starts at the origin.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Velocity of a free base.
   Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
-/// The momenta and the kinetic energy of all free bodies and robots.
+/// Momenta and kinetic energy of all free bodies and robots.
 struct LawTotals {
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          ///< [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
@@ -63,22 +64,22 @@ struct LawScene {
   std::vector<LawRobot> robots = {};
 };
 
-/// What an engine does with a scene.
+/// Simulation of a scene in one engine.
 class LawEngine {
  public:
   virtual ~LawEngine() = default;
   virtual void step() = 0;
   [[nodiscard]] virtual LawBody body(
-      std::size_t k) const = 0;  ///< With pose and velocities of now.
+      std::size_t k) const = 0;  ///< Has the present pose and velocities.
   [[nodiscard]] virtual std::vector<double> positions(std::size_t robot) const = 0;
-  /// Of the robots.
+  /// Returns the momenta and the kinetic energy of the robots.
   [[nodiscard]] virtual LawTotals robots() { return {}; }
 };
 
 /// Reads a scene, lets an engine simulate it, and writes the run: `laws_ENGINE SCENE RUN`.
 ///
-/// @returns the exit status: 3 where the scene is not for this engine: it has robots that the
-/// engine has not, ties, or a mesh
+/// @returns the exit status; 3 where the scene is not for this engine: it has a mesh, ties, or
+///         robots that the engine does not support
 int simulate_law(int argc, char** argv, bool has_robots,
                  const std::function<std::unique_ptr<LawEngine>(const LawScene&)>& load);
 

@@ -1,4 +1,5 @@
-// The scenes of laws.py in Bullet as it comes: ten sweeps of its solver, no sleeping.
+// Simulates the scenes of laws.py in Bullet with its defaults: ten sweeps of its solver, no
+// sleeping.
 
 #include <cmath>
 #include <memory>
@@ -97,7 +98,8 @@ class BulletLaw final : public LawEngine {
     btRigidBody::btRigidBodyConstructionInfo info(
         scalar(is_free ? body.mass : 0.0), states_.back().get(), shapes_.back().get(),
         is_free ? vector(body.moments) : btVector3{0, 0, 0});
-    info.m_friction = scalar(std::sqrt(scene_.friction));  // Of a pair: the product.
+    info.m_friction = scalar(std::sqrt(scene_.friction));  // Bullet multiplies the values of the
+                                                           // two bodies.
     info.m_restitution = scalar(is_free ? body.restitution : 1.0);
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     btRigidBody& added = *bodies_.back();

@@ -1,4 +1,4 @@
-// The scenes of laws.py in MuJoCo as it comes.
+// Simulates the scenes of laws.py in MuJoCo with its defaults.
 
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What spins has this many times the mass of what lies on it: it goes on as a script would.
+// [kg] and [kg m^2]  A body of a spinning joint is so heavy that no contact changes its motion.
 constexpr double kHeavy = 1e9;
 
 std::string three(const Vector3d& v) {
@@ -155,7 +155,7 @@ class MujocoLaw final : public LawEngine {
   }
 
   void start_robot(const LawRobot& robot) {
-    const int base = robot.is_free ? 1 : 0;  // A joint.
+    const int base = robot.is_free ? 1 : 0;  // A free base counts as one joint.
     for (int k = 0; k < 3 * base; ++k) {
       data_->qvel[k] = robot.v[k];
       data_->qvel[3 + k] = robot.w[k];

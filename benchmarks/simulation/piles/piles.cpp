@@ -20,11 +20,11 @@ using Eigen::Vector3d;
 using nlohmann::json;
 
 constexpr double kSide = 2.0 * kBoxHalf;
-constexpr double kGap = 1.8e-5;     // [m]  Between boxes that rest: about our contact distance.
-constexpr double kMostTime = 60e3;  // [ms]  Processor time of a pile; then it is left.
+constexpr double kGap = 1.8e-5;     // [m]  Gap between boxes at rest: about our contact distance.
+constexpr double kMostTime = 60e3;  // [ms]  Processor time after which a pile is abandoned.
 constexpr double kMostTimeQuick = 5e3;
 
-/// Places in rows, columns and layers.
+/// Returns positions in rows, columns and layers.
 std::vector<Vector3d> lattice(int count, int in_a_row, double apart, double up, double lowest) {
   std::vector<Vector3d> places;
   for (int k = 0; k < count; ++k) {
@@ -57,7 +57,7 @@ Pile turned(Pile pile) {
 
 int root(int count) { return static_cast<int>(std::lround(std::sqrt(count))); }
 
-/// Boxes 1 m apart that never reach the floor.
+/// Makes a pile of boxes 1 m apart that never reach the floor.
 Pile falling_apart(int count) {
   return turned(resting("falling apart", lattice(count, root(count), 1.0, 1.0, 100.0), 100));
 }
@@ -66,13 +66,13 @@ Pile resting_apart(int count) {
   return resting("resting apart", lattice(count, root(count), 1.0, 1.0, kBoxHalf + kGap), 100);
 }
 
-/// Five boxes each, 1 m apart.
+/// Makes stacks of five boxes each, 1 m apart.
 Pile stacks(int count) {
   return resting("stacks of five",
                  lattice(count, root(count / 5), 1.0, kSide + kGap, kBoxHalf + kGap), 100);
 }
 
-/// All fall onto one heap.
+/// Makes a pile of boxes that all fall onto one heap.
 Pile heap(int count) {
   const int in_a_row = static_cast<int>(std::lround(std::cbrt(count)));
   return turned(resting("heap", lattice(count, in_a_row, 2.0 * kSide, 2.0 * kSide, kSide), 300));

@@ -1,5 +1,5 @@
 /// @file
-/// Boxes that fall, rest and pile up on a floor, the same for every engine, and what a step takes.
+/// Boxes that fall, rest and pile up on a floor, the same for every engine, and the time of a step.
 
 #pragma once
 
@@ -17,23 +17,23 @@ constexpr double kStep = 0.01;        // [s]
 constexpr double kBoxHalf = 0.1;      // [m]  Cubes.
 constexpr double kBoxMass = 8.0;      // [kg]
 constexpr double kFriction = 0.5;     // [-]
-constexpr double kFloorHalf = 500.0;  // [m]  Of the floor, whose top is at height 0.
+constexpr double kFloorHalf = 500.0;  // [m]  Half the side of the floor, whose top is at height 0.
 constexpr double kFloorThick = 1.0;   // [m]
 
-/// Boxes where they begin, at rest but for a spin.
+/// Initial poses of boxes, at rest except for a spin.
 struct Pile {
   std::string name;
   std::vector<Eigen::Isometry3d> boxes;  ///< X_WB
   std::vector<Eigen::Vector3d> spins;    ///< [rad/s]
-  int steps = 0;                         ///< To be simulated.
+  int steps = 0;                         ///< Number of steps to simulate.
 };
 
-/// A pile in one engine.
+/// Simulation of a pile in one engine.
 class PileWorld {
  public:
   virtual ~PileWorld() = default;
-  virtual void step() = 0;  ///< By kStep.
-  /// What an engine says of itself at the end, by name.
+  virtual void step() = 0;  ///< Advances the time by kStep.
+  /// Returns further results of an engine at the end, by name.
   [[nodiscard]] virtual std::vector<std::pair<std::string, double>> remarks() const { return {}; }
 };
 

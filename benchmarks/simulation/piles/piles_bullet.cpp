@@ -1,5 +1,5 @@
-// Boxes that fall, rest and pile up, in Bullet as it comes: one thread, ten sweeps of its solver,
-// bodies that rest fall asleep.
+// Simulates boxes that fall, rest and pile up, in Bullet with its defaults: one thread, ten sweeps
+// of its solver, sleeping bodies.
 
 #include <cmath>
 
@@ -35,7 +35,7 @@ class BulletPile final : public PileWorld {
     }
   }
 
-  // One step of just this length: no interpolation, no more than asked for.
+  // One step of exactly this length, without interpolation.
   void step() override { world_.stepSimulation(scalar(kStep), 0); }
 
  private:
@@ -43,7 +43,8 @@ class BulletPile final : public PileWorld {
                    const btVector3& inertia = {0, 0, 0}) {
     btRigidBody::btRigidBodyConstructionInfo info(scalar(mass), nullptr, &shape, inertia);
     info.m_startWorldTransform = X_WB;
-    info.m_friction = scalar(std::sqrt(kFriction));  // Of a pair: the product.
+    info.m_friction = scalar(std::sqrt(kFriction));  // Bullet multiplies the values of the two
+                                                     // bodies.
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     world_.addRigidBody(bodies_.back().get());
     return *bodies_.back();

@@ -1,4 +1,4 @@
-// Boxes that fall, rest and pile up, in firstcontact.
+// Simulates boxes that fall, rest and pile up, in firstcontact.
 
 #include <algorithm>
 

@@ -18,12 +18,12 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using nlohmann::json;
 
-// A box of 0.5 m/s is seen in the plate, as a rule.
+// At 0.5 m/s, most boxes have an instant at which they are in the plate.
 constexpr double kSpeeds[] = {0.5, 2, 20, 50, 100, 200, 500, 1000, 2000};  // [m/s]
 constexpr double kSpins[] = {0, 10, 100, 1000};                            // [rad/s]
 constexpr int kStepsAtThePlate = 30;
 
-/// The instants at which a box is looked at fall anywhere before and behind the plate.
+/// Makes a shot whose sampled instants are at random distances from the plate.
 Shot random_shot(double speed, double spin, test::Random& random) {
   Shot shot{.speed = speed, .X_WB = Isometry3d::Identity()};
   const double distance = 0.02 + random.uniform(0.0, 2.0) * speed * kStep;
@@ -34,7 +34,7 @@ Shot random_shot(double speed, double spin, test::Random& random) {
   return shot;
 }
 
-/// [m]  How far the box's farthest corner is behind the near side of the plate.
+/// [m]  Computes how far the box's farthest corner is behind the near side of the plate.
 double depth(const Isometry3d& X_WB) {
   const double reach = kBoxHalf * X_WB.linear().row(0).lpNorm<1>();
   return X_WB.translation().x() + reach + kPlateHalfThick;
@@ -42,17 +42,18 @@ double depth(const Isometry3d& X_WB) {
 
 bool is_behind(const Isometry3d& X_WB) { return X_WB.translation().x() > kPlateHalfThick; }
 
-/// Not beside the plate, where a box may get behind it.
+/// Returns whether the box is not beside the plate, where it could pass without contact.
 bool is_at_the_plate(const Isometry3d& X_WB) {
   return X_WB.translation().tail<2>().lpNorm<Eigen::Infinity>() < kPlateHalf;
 }
 
-/// What became of the boxes of one speed.
+/// Outcomes of the boxes of one speed.
 struct Tally {
   int shots = 0;
-  int passed = 0;  ///< Their centres ended behind the plate, and got there through it.
-  int sunk = 0;    ///< Not passed, but with a corner behind the plate at the end of a step.
-  int broken = 0;  ///< Poses that are no numbers.
+  int passed = 0;  ///< Boxes whose centre ended behind the plate and went through it.
+  int sunk = 0;    ///< Boxes that did not pass, but had a corner behind the plate at the end of a
+                   ///< step.
+  int broken = 0;  ///< Boxes whose pose is not a number.
   int proven = 0;
 };
 

@@ -1,5 +1,6 @@
-// Boxes shot at a thin plate, in Bullet: with and without its continuous collision detection, which
-// sweeps a sphere in place of the box, the plate as a box and as a mesh of triangles.
+// Simulates boxes shot at a thin plate, in Bullet, with the plate as a box and as a mesh of
+// triangles. Bullet runs with and without its continuous collision detection, which sweeps a sphere
+// in place of the box.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -8,7 +9,7 @@
 namespace firstcontact::benchmarks {
 namespace {
 
-/// Bullet is made for bodies of about 1: lengths are in centimetres.
+/// [1/m]  Lengths are in centimetres, as Bullet is made for bodies of about size 1.
 constexpr double kUnits = 100.0;
 
 btVector3 length(const Eigen::Vector3d& v) {
@@ -32,7 +33,7 @@ std::unique_ptr<btTriangleMesh> triangles_of(const BoxMesh& mesh) {
 
 struct Use {
   bool plate_is_mesh = false;
-  double swept_radius = 0.0;  ///< [m]  Of the sphere of continuous detection; 0: none.
+  double swept_radius = 0.0;  ///< [m]  Radius of the sphere of continuous detection; 0 for none.
 };
 
 class BulletFlight final : public Flight {
@@ -48,7 +49,7 @@ class BulletFlight final : public Flight {
   }
 
   void step() override {
-    // One step of just this length: no interpolation, no more than asked for.
+    // One step of exactly this length, without interpolation.
     world_.stepSimulation(static_cast<btScalar>(kStep), 0);
   }
 
@@ -69,7 +70,8 @@ class BulletFlight final : public Flight {
       plate_shape_ =
           std::make_unique<btBoxShape>(length({kPlateHalfThick, kPlateHalf, kPlateHalf}));
     }
-    // The default of 4 cm would be thicker than the plate; a box shape has it inside.
+    // The default of 4 cm would be thicker than the plate; a box shape includes the margin in its
+    // size.
     plate_shape_->setMargin(static_cast<btScalar>(0.2 * kUnits * kPlateHalfThick));
     plate_ = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(0, nullptr, plate_shape_.get()));
@@ -121,8 +123,8 @@ Contender contender(const char* name, const Use& use) {
 
 int main(int argc, char** argv) {
   using namespace firstcontact::benchmarks;
-  // A sphere in the box, as the manual advises, lets corners through; one around it stops the box
-  // before it touches.
+  // A sphere inside the box, as the manual advises, lets corners through. A sphere around the box
+  // stops it before it touches.
   constexpr double kInside = 0.9 * kBoxHalf;
   constexpr double kAround = 1.75 * kBoxHalf;
   return shoot(argc, argv,

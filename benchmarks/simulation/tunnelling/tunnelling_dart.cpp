@@ -1,4 +1,4 @@
-// Boxes shot at a thin plate, in DART: with its default way to detect collisions, FCL, and with
+// Simulates boxes shot at a thin plate, in DART, with its default collision detector, FCL, and with
 // that of Bullet.
 
 #include <dart/collision/bullet/BulletCollisionDetector.hpp>
@@ -18,9 +18,9 @@ namespace {
 using dart::dynamics::BoxShape;
 using dart::dynamics::Skeleton;
 
-/// A skeleton of one body, a box.
+/// Makes a skeleton of one body, a box.
 ///
-/// @param half  [m]
+/// @param half  [m]  half the size in x, y, z
 template <class Joint>
 dart::dynamics::SkeletonPtr one_box(const std::string& name, const Eigen::Vector3d& half) {
   const dart::dynamics::SkeletonPtr skeleton = Skeleton::create(name);

@@ -1,4 +1,4 @@
-// Boxes shot at a thin plate, in firstcontact: every run is proven by verify_run.
+// Simulates boxes shot at a thin plate, in firstcontact; verify_run proves every run.
 
 #include <optional>
 #include <vector>

@@ -1,4 +1,5 @@
-// Boxes shot at a thin plate, in MuJoCo: as it comes, and with contacts that act at a distance.
+// Simulates boxes shot at a thin plate, in MuJoCo: with its defaults, and with contacts that act at
+// a distance.
 
 #include <cstdio>
 #include <sstream>
@@ -11,7 +12,7 @@
 namespace firstcontact::benchmarks {
 namespace {
 
-/// A model of the two boxes; what is free is placed later.
+/// Writes the model of the two boxes; the free box gets its pose later.
 ///
 /// @param margin  [m]  contacts act from this distance on
 std::string model_text(double margin) {
@@ -26,7 +27,7 @@ std::string model_text(double margin) {
   return text.str();
 }
 
-/// MuJoCo reads files; this one is in its memory.
+/// Reads a model from memory, as MuJoCo reads only files.
 std::shared_ptr<mjModel> read_model(const std::string& text) {
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -50,7 +51,8 @@ class MujocoFlight final : public Flight {
     Eigen::Map<Eigen::Vector3d>(data_->qpos) = shot.X_WB.translation();
     Eigen::Map<Eigen::Vector4d>(data_->qpos + 3) = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
     Eigen::Map<Eigen::Vector3d>(data_->qvel) = Eigen::Vector3d(shot.speed, 0, 0);
-    Eigen::Map<Eigen::Vector3d>(data_->qvel + 3) = spin_B;  // Of a free joint in body axes.
+    Eigen::Map<Eigen::Vector3d>(data_->qvel + 3) = spin_B;  // The angular velocity of a free joint
+                                                            // is in body axes.
   }
 
   void step() override { mj_step(model_.get(), data_.get()); }

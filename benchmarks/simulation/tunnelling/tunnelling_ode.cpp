@@ -1,4 +1,4 @@
-// Boxes shot at a thin plate, in ODE: the plate as a box and as a mesh of triangles.
+// Simulates boxes shot at a thin plate, in ODE: the plate as a box and as a mesh of triangles.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 namespace firstcontact::benchmarks {
 namespace {
 
-/// A mesh as ODE reads it, which keeps pointers to it.
+/// Mesh in the form that ODE reads; ODE keeps pointers to it.
 struct OdeMesh {
   explicit OdeMesh(const BoxMesh& mesh) {
     for (const Eigen::Vector3d& p : mesh.corners) {
@@ -53,7 +53,8 @@ class OdeFlight final : public Flight {
     dBodySetQuaternion(box_, rotation);
     dBodySetLinearVel(box_, shot.speed, 0, 0);
     dBodySetAngularVel(box_, shot.spin.x(), shot.spin.y(), shot.spin.z());
-    dBodySetFiniteRotationMode(box_, 1);  // Turns by what the spin says, not by its tangent.
+    dBodySetFiniteRotationMode(box_, 1);  // Turns by the exact rotation of the spin, not by its
+                                          // tangent.
   }
   ~OdeFlight() override {
     dJointGroupDestroy(contacts_);
