@@ -1,5 +1,5 @@
 /// @file
-/// What holds of every captured motion that a reader returns.
+/// Properties of every captured motion that a reader returns.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace firstcontact::test {
 
-/// It makes a figure, and its first and last frames a motion.
+/// Requires that the capture gives a figure, and its first and last frames a motion.
 inline void require_sound(const MotionCapture& capture) {
   const RobotModel figure = make_figure(capture);
   require(figure.links().size() == capture.bones.size());

@@ -1,5 +1,6 @@
 /// @file
-/// What holds for a reader on any bytes: a valid mesh or cloud, or a ParseError of one line.
+/// Properties of a reader's result on any bytes: a valid mesh or cloud, or a ParseError of one
+/// line.
 
 #pragma once
 
@@ -23,7 +24,7 @@ inline void require(bool holds) {
   }
 }
 
-/// Parses the bytes, and puts what was read through weld and inspect.
+/// Parses the bytes, and passes the resulting mesh through weld and inspect.
 template <class Parse>
 void fuzz_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
   try {
@@ -36,7 +37,7 @@ void fuzz_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
   }
 }
 
-/// Parses the bytes of a cloud: finite points, at least one.
+/// Parses the bytes of a cloud, and requires finite points, at least one.
 template <class Parse>
 void fuzz_point_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
   try {

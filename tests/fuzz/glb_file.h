@@ -22,7 +22,8 @@ inline std::uint32_t word_at(std::string_view bytes, std::size_t place) {
   return word;
 }
 
-/// Nothing where the bytes are not a GLB file of a JSON chunk and perhaps a binary one.
+/// Splits a GLB file of a JSON chunk and perhaps a binary one; none where the bytes are no such
+/// file.
 inline std::optional<GlbFile> split(std::string_view bytes) {
   constexpr std::size_t kHeaders = 20;
   if (bytes.size() < kHeaders || bytes.substr(0, 4) != "glTF" || bytes.substr(16, 4) != "JSON") {

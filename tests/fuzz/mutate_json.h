@@ -1,5 +1,5 @@
 /// @file
-/// Changes JSON text so that most of it stays JSON: what a mutation of bytes hardly ever does.
+/// Changes JSON text so that most of it stays JSON; a mutation of bytes rarely achieves that.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace firstcontact::test {
 
-/// Part of a text.
+/// Range of characters of a text.
 struct Span {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// The values of a JSON text, and which of them are keys. Brackets need not match.
+/// Values of a JSON text, and the keys among them; brackets need not match.
 struct JsonSpans {
   std::vector<Span> keys;
   std::vector<Span> values;    ///< Scalars, and whole arrays and objects.
@@ -27,7 +27,7 @@ struct JsonSpans {
 
 inline JsonSpans find_spans(std::string_view text) {
   JsonSpans spans;
-  std::vector<std::size_t> open;  // Where the elements around this place begin.
+  std::vector<std::size_t> open;  // Starts of the elements around this place.
   std::size_t element = std::string_view::npos;
   const auto value = [&](Span span) {
     spans.values.push_back(span);
@@ -69,9 +69,9 @@ inline JsonSpans find_spans(std::string_view text) {
   return spans;
 }
 
-/// One change: of a number, a key, a value; or an element that is dropped, repeated or swapped.
+/// Makes one change: of a number, a key or a value, or it drops, repeats or swaps an element.
 ///
-/// @param words  keys and names that mean something in the format
+/// @param words  keys and names that have a meaning in the format
 inline std::string mutate_json(std::string text, const std::vector<std::string_view>& words,
                                std::mt19937& random) {
   static const std::vector<std::string_view> numbers = {"0",

@@ -1,5 +1,5 @@
 /// @file
-/// Mutations of XML that keep it XML: a fuzzer of bytes breaks the document nearly always.
+/// Mutations of XML that keep it XML; a fuzzer of bytes breaks nearly every document.
 
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace firstcontact::test {
 
-/// What a format is made of.
+/// Words of a format.
 struct XmlWords {
-  std::vector<std::string_view> names;   ///< Of elements and attributes.
-  std::vector<std::string_view> values;  ///< Of attributes and text.
+  std::vector<std::string_view> names;   ///< Names of elements and attributes.
+  std::vector<std::string_view> values;  ///< Values of attributes and text.
 };
 
-/// Values that readers of numbers and of paths have to think about.
+/// Values that are special cases for readers of numbers and of paths.
 inline const std::vector<std::string_view>& odd_values() {
   static const std::vector<std::string_view> values{"",
                                                     "0",
@@ -46,8 +46,10 @@ inline const std::vector<std::string_view>& odd_values() {
   return values;
 }
 
-/// Changes one to four places of a text: renames tags; sets, renames and removes attributes;
-/// removes, repeats, swaps, moves and nests elements; puts other numbers into text and attributes.
+/// Changes one to four places of a text.
+///
+/// It renames tags; sets, renames and removes attributes; removes, repeats, swaps, moves and nests
+/// elements; and puts other numbers into text and attributes.
 class XmlMutator {
  public:
   XmlMutator(std::string text, const XmlWords& words, unsigned seed)
@@ -66,7 +68,7 @@ class XmlMutator {
   }
 
  private:
-  /// [begin, end) with its content; its first tag ends before `open_end`.
+  /// Element [begin, end) with its content; its first tag ends before `open_end`.
   struct Element {
     std::size_t begin;
     std::size_t open_end;
@@ -81,7 +83,7 @@ class XmlMutator {
     return list.empty() ? std::string_view("x") : list[below(list.size())];
   }
 
-  /// A known name, sometimes misspelt or with a prefix.
+  /// Returns a known name, sometimes misspelt or with a prefix.
   std::string name() {
     std::string result(one_of(words_.names));
     const std::size_t kind = below(12);
@@ -159,7 +161,7 @@ class XmlMutator {
     return std::min(end, element.open_end - 1);
   }
 
-  /// Both tags, where there are two.
+  /// Renames both tags of an element, or the only one.
   void rename(const Element& element) {
     const std::string put = name();
     const std::size_t close = text_.rfind("</", element.end - 1);
@@ -208,7 +210,7 @@ class XmlMutator {
     }
   }
 
-  /// Two elements of which none contains the other.
+  /// Swaps two elements, neither of which contains the other.
   void swap(Element first, Element second) {
     if (second.begin < first.begin) {
       std::swap(first, second);
@@ -222,7 +224,7 @@ class XmlMutator {
     text_.replace(first.begin, before.size(), after);
   }
 
-  /// The next number behind a place drawn by chance: lists of text hold most of a file's numbers.
+  /// Changes the next number after a random place: lists of text hold most of a file's numbers.
   void change_number() {
     const std::size_t begin = text_.find_first_of("0123456789", below(text_.size()));
     if (begin == std::string::npos) {
@@ -252,8 +254,11 @@ class XmlMutator {
   std::vector<Element> elements_;
 };
 
-/// As LLVMFuzzerCustomMutator has it: changes `size` bytes in place, to at most `greatest`, and
-/// returns how many there are then. One in four is left to the fuzzer's own mutations of bytes.
+/// Changes `size` bytes in place, to at most `greatest`, as LLVMFuzzerCustomMutator requires.
+///
+/// One in four is left to the fuzzer's own mutations of bytes.
+///
+/// @returns the new number of bytes
 template <class MutateBytes>
 std::size_t mutate_xml(std::uint8_t* data, std::size_t size, std::size_t greatest, unsigned seed,
                        const XmlWords& words, const MutateBytes& mutate_bytes) {

@@ -1,5 +1,5 @@
 /// @file
-/// Closest points of two triangles by brute force, in any arithmetic: a guess for the oracle.
+/// Closest points of two triangles by brute force, in any arithmetic: an estimate for the oracle.
 
 #pragma once
 
@@ -16,11 +16,11 @@ using Triangle = std::array<Vector3<T>, 3>;
 /// Barycentric weights of the closest points, and directions that may separate the triangles.
 template <class T>
 struct ClosestPoints {
-  T distance2 = T(-1);  ///< Squared; 0 where the triangles meet.
+  T distance2 = T(-1);  ///< [m^2]  Squared distance; 0 where the triangles meet.
   std::array<T, 3> weights_A{};
   std::array<T, 3> weights_B{};
-  Vector3<T> difference;  ///< From A's point to B's.
-  Vector3<T> normal;      ///< Of the features: face normal or product of the edges; may be zero.
+  Vector3<T> difference;  ///< Vector from A's point to B's.
+  Vector3<T> normal;  ///< Normal of the features: face normal or product of the edges; may be zero.
 };
 
 namespace detail {
@@ -89,7 +89,8 @@ class ClosestPointsSearch {
     offer(on_edge(i, s), on_edge(j, t), cross(u, v));
   }
 
-  /// Weights of the foot of P in the plane of the triangle; false where it lies outside.
+  /// Computes the weights of the foot of P in the plane of the triangle; false where it lies
+  /// outside.
   static bool foot_weights(const Vector3<T>& P, const Triangle<T>& face, const Vector3<T>& n,
                            Weights& w) {
     const T nn = dot(n, n);

@@ -13,10 +13,10 @@
 
 namespace firstcontact::test {
 
-/// Kinds of primitives that a mesh can have.
+/// Kinds of primitives of a mesh.
 enum class DaePrimitive { triangles, polylist, polygons, tristrips, trifans };
 
-/// As many digits as give the number back.
+/// Writes a number with so many digits that reading gives the same double.
 inline std::string dae_number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -41,12 +41,12 @@ std::string dae_indices(const Indices& indices) {
   return text;
 }
 
-/// Four by four, row by row, of rows of an affine map.
+/// Writes a 4x4 matrix, row by row, from the rows of an affine map.
 inline std::string dae_matrix_text(const std::array<double, 12>& rows) {
   return dae_numbers(rows) + " 0 0 0 1";
 }
 
-/// A source of numbers: rows of `parameters` ("X Y Z" gives "XYZ").
+/// Writes a source of numbers: rows of `parameters` ("X Y Z" gives "XYZ").
 inline std::string dae_source(const std::string& id, const std::vector<double>& numbers,
                               const std::string& parameters) {
   std::string text = "<source id='" + id + "'><float_array id='" + id + "-a' count='" +
@@ -60,7 +60,7 @@ inline std::string dae_source(const std::string& id, const std::vector<double>& 
   return text + "</accessor></technique_common></source>";
 }
 
-/// A source of names or, as IDREF_array, of ids.
+/// Writes a source of names or, with the kind IDREF_array, of ids.
 inline std::string dae_name_source(const std::string& id, const std::vector<std::string>& names,
                                    const std::string& kind) {
   std::string words;
@@ -73,7 +73,7 @@ inline std::string dae_name_source(const std::string& id, const std::vector<std:
          "'><param type='name'/></accessor></technique_common></source>";
 }
 
-/// A source of 4x4 matrices, each as 16 numbers in words.
+/// Writes a source of 4x4 matrices, each as 16 numbers in words.
 inline std::string dae_matrix_source(const std::string& id,
                                      const std::vector<std::string>& matrices) {
   std::string words;
@@ -88,7 +88,7 @@ inline std::string dae_matrix_source(const std::string& id,
          "</source>";
 }
 
-/// The faces of the reference body as lists of corners of one kind of primitive.
+/// Returns the faces of the reference body as lists of corners of one kind of primitive.
 inline std::vector<std::vector<std::size_t>> dae_lists(DaePrimitive kind) {
   switch (kind) {
     case DaePrimitive::tristrips:
@@ -109,8 +109,10 @@ inline std::vector<std::vector<std::size_t>> dae_lists(DaePrimitive kind) {
   return reference_body().polygons;
 }
 
-/// The primitive element. Corners have an index of another input before and behind that of the
-/// vertex, as writers of normals and colours have.
+/// Writes the primitive element.
+///
+/// Each corner has an index of another input before and after that of the vertex, as programs that
+/// write normals and colours have.
 inline std::string dae_primitive(const std::string& mesh, DaePrimitive kind) {
   static constexpr std::array<const char*, 5> kNames = {"triangles", "polylist", "polygons",
                                                         "tristrips", "trifans"};
@@ -136,7 +138,7 @@ inline std::string dae_primitive(const std::string& mesh, DaePrimitive kind) {
          (joined ? "<p>" + corners + "</p>" : corners) + "</" + name + ">";
 }
 
-/// Positions, row by row.
+/// Returns positions row by row.
 inline std::vector<double> dae_rows(const std::vector<std::array<double, 3>>& points) {
   std::vector<double> rows;
   for (const auto& point : points) {
@@ -145,7 +147,7 @@ inline std::vector<double> dae_rows(const std::vector<std::array<double, 3>>& po
   return rows;
 }
 
-/// A geometry of given sources ("ID-p" is that of positions) and primitives.
+/// Writes a geometry of given sources ("ID-p" is that of positions) and primitives.
 inline std::string dae_geometry(const std::string& id, const std::string& sources,
                                 const std::string& primitives, const std::string& mesh = "mesh") {
   return "<geometry id='" + id + "'><" + mesh + ">" + sources + "<vertices id='" + id +
@@ -153,14 +155,14 @@ inline std::string dae_geometry(const std::string& id, const std::string& source
          mesh + "></geometry>";
 }
 
-/// The reference body as a geometry.
+/// Writes the reference body as a geometry.
 inline std::string dae_body(const std::string& id, double unit = 0.1,
                             DaePrimitive kind = DaePrimitive::triangles) {
   return dae_geometry(id, dae_source(id + "-p", dae_rows(reference_body(unit).vertices), "XYZ"),
                       dae_primitive(id, kind));
 }
 
-/// A document in parts.
+/// A document, in parts.
 struct DaeWriter {
   std::string asset = "<asset><unit name='meter' meter='1'/><up_axis>Z_UP</up_axis></asset>";
   std::string geometries = dae_body("body");

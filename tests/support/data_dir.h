@@ -1,5 +1,5 @@
 /// @file
-/// Where tests find the data sets that are too large for the repository.
+/// Folder of the test data that is too large for the repository.
 
 #pragma once
 
@@ -8,8 +8,10 @@
 
 namespace firstcontact::test {
 
-/// FIRSTCONTACT_DATA_DIR, or else ../shared/data beside the source tree. Empty where neither
-/// exists; a test then says so: `GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR"`.
+/// Returns FIRSTCONTACT_DATA_DIR, or else ../shared/data beside the source tree; empty where
+/// neither exists.
+///
+/// A test without its data is skipped: `GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR"`.
 inline std::filesystem::path data_dir() {
   const char* set = std::getenv("FIRSTCONTACT_DATA_DIR");
   const std::filesystem::path path =

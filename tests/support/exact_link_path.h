@@ -1,6 +1,6 @@
 /// @file
-/// Where the exact joints of a robot put a link, how fast it moves there, and how fast at most: in
-/// 256 bits, from the numbers of a RobotInput.
+/// Exact pose of a robot's link, its velocity, and a bound of its acceleration: in 256 bits, from
+/// the numbers of a RobotInput.
 
 #pragma once
 
@@ -22,7 +22,7 @@ struct ExactPolynomial {
   [[nodiscard]] Wide rate(const Wide& t) const;
 };
 
-/// The link's frame at one time: p_FP = origin + columns p_LP; and the rates of change.
+/// Pose of the link at one time, p_FP = origin + columns p_LP, and the rates of change.
 struct ExactLinkState {
   Vector3<Wide> origin, velocity;
   Matrix3<Wide> R, spin;
@@ -40,8 +40,8 @@ class ExactLinkPath {
  public:
   [[nodiscard]] ExactLinkState state(const Wide& t) const;
 
-  /// [m per step^2]  No point of the link within `radius` of its origin accelerates by more, at
-  /// times of the piece from t_from to t_to.
+  /// [m per step^2]  Upper bound of the acceleration of points of the link within `radius` of its
+  /// origin, at times of the piece from t_from to t_to.
   [[nodiscard]] double acceleration_bound(double radius, double t_from, double t_to) const;
 
  private:
@@ -69,11 +69,12 @@ class ExactLinkPath {
   std::vector<Step> steps_;
 };
 
-/// Times at which the motion of a link may change its formula: 0, ..., 1.
+/// Returns the times at which the motion of a link may change its formula: 0, ..., 1.
 std::vector<double> break_times(const RobotCase& c);
 
-/// The paths of A and B over the piece of time that starts at a break, in the frame of their last
-/// common ancestor, or in the world.
+/// Returns the paths of A and B over the piece of time that starts at a break.
+///
+/// Their frame is that of the last common ancestor, or the world.
 std::array<ExactLinkPath, 2> exact_link_paths(const RobotCase& c, double t_begin);
 
 }  // namespace firstcontact::oracle

@@ -1,5 +1,5 @@
 /// @file
-/// Where the exact motion puts a body at one time.
+/// Exact pose of a body at one time.
 
 #pragma once
 
@@ -16,11 +16,11 @@ class ExactState {
       : piece_(piece),
         s_((Wide(t) - Wide(piece.t_begin)) / (Wide(piece.t_end) - Wide(piece.t_begin))) {}
 
-  /// The body point that the levers lead to.
+  /// Returns the body point at the end of the levers.
   [[nodiscard]] Vector3<Wide> center() const {
     return piece_.pivot + s_ * piece_.travel + rotated(piece_.lever);
   }
-  /// The columns of R_WB.
+  /// Returns a column of R_WB.
   [[nodiscard]] Vector3<Wide> column(std::size_t j) const { return rotated(piece_.R.column[j]); }
 
  private:

@@ -1,6 +1,6 @@
 /// @file
-/// The truth about the first contact of two small triangle soups, slow and independent of the
-/// library: interval proofs of separation over windows of time, brute force over all pairs.
+/// True first contact of two small triangle soups, slow and independent of the library. It proves
+/// separation by intervals over windows of time, with brute force over all pairs.
 
 #pragma once
 
@@ -14,17 +14,18 @@ namespace firstcontact::oracle {
 enum class TruthKind {
   free,     ///< Proven: d(t) > margin on all of [0, 1].
   contact,  ///< Proven: d > margin on [0, lo), d(t') <= margin + 1e-20 size at some t' in [lo, hi].
-  gave_up,  ///< The least gap is neither above zero by 1e-20 of the size nor below, or too dear.
+  gave_up,  ///< The least gap is within 1e-20 of the size of zero, or the proof needs too many
+            ///< windows.
 };
 
 struct Truth {
   TruthKind kind = TruthKind::gave_up;
-  double lo = 0.0;          ///< [-]  Rounded downwards.
-  double hi = 1.0;          ///< [-]  Rounded upwards.
-  std::size_t windows = 0;  ///< Windows of time that were looked at.
+  double lo = 0.0;          ///< [-]  Bound, rounded downwards.
+  double hi = 1.0;          ///< [-]  Bound, rounded upwards.
+  std::size_t windows = 0;  ///< Number of windows of time that were tested.
 };
 
-/// [m]  lower <= d(t) <= upper.
+/// [m]  Bounds lower <= d(t) <= upper.
 struct DistanceBounds {
   double lower = 0.0;
   double upper = 0.0;
@@ -37,16 +38,17 @@ class FirstContactOracle {
   FirstContactOracle(const FirstContactOracle&) = delete;
   FirstContactOracle& operator=(const FirstContactOracle&) = delete;
 
-  /// @param window_budget  gives up after so many windows
+  /// @param window_budget  number of windows after which it gives up
   Truth first_contact(std::size_t window_budget = 20'000);
 
-  /// The distance of the thickened soups at one time.
+  /// Bounds the distance of the thickened soups at one time.
   DistanceBounds distance(double t);
 
-  /// Whether d(t) <= margin + tolerance is proven, the sum taken exactly.
+  /// Returns whether d(t) <= margin + tolerance is proven, with an exact sum.
   bool within(double t, double tolerance);
 
-  /// [m]  The larger of the two soups' radii (about the middle of their boxes), and the margin.
+  /// [m]  Returns the greatest of the soups' radii (about the middle of their boxes) and the
+  /// margin.
   [[nodiscard]] double size() const;
 
  private:

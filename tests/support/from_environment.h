@@ -1,5 +1,5 @@
 /// @file
-/// Numbers by which a test becomes a longer campaign.
+/// Environment variables that make a test a longer campaign.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace firstcontact::test {
 
-/// The whole number that an environment variable holds, or another where it is not set.
+/// Returns the whole number in an environment variable, or `otherwise` where it is not set.
 inline std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
   const char* value = std::getenv(variable);
   return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);

@@ -10,12 +10,14 @@
 
 namespace firstcontact::oracle {
 
-/// What the questions of a family have in common. Varied besides: size (0.01 to 100), number of
-/// joints (up to 12), orientation, margin, radius and tolerance.
+/// Families of questions about links.
+///
+/// All families also vary size (0.01 to 100), number of joints (up to 12), orientation, margin,
+/// radius and tolerance.
 enum class RobotFamily {
   link_and_rest,     ///< A link on joints of all types against a mesh at rest.
-  link_and_body,     ///< Against a free body on a constant velocity, or through waypoints.
-  own_links,         ///< Two links of one tree, on a base that whirls.
+  link_and_body,     ///< A link against a free body on a constant velocity, or through waypoints.
+  own_links,         ///< Two links of one tree, on a base that rotates fast.
   two_robots,        ///< Links of two robots.
   high_polynomials,  ///< Coordinates on quintics, and polynomials of degree 5 to 7.
   mimics,            ///< Most joints mimic others.
@@ -23,7 +25,7 @@ enum class RobotFamily {
   many_turns,        ///< Joints that turn up to 30 times.
   far_away,          ///< The world's origin is 1e6 sizes away.
   grazing,           ///< A corner passes a face at the margin, up to 1e-2 to 1e-10 of the size.
-  ends,              ///< A corner is that near to the margin at t = 0 or 1.
+  ends,              ///< A corner is as near to the margin at t = 0 or 1.
   link_and_cloth,    ///< A link against a mesh whose vertices each move on a line.
 };
 
@@ -31,10 +33,12 @@ inline constexpr int kRobotFamilyCount = static_cast<int>(RobotFamily::link_and_
 
 std::string name(RobotFamily family);
 
-/// The same bits with every compiler: + - * / and square roots of doubles, and places in 256 bits.
+/// Generates a case; with every compiler it has the same bits.
+///
+/// It uses + - * / and square roots of doubles, and positions in 256 bits.
 RobotCase generate(RobotFamily family, std::uint64_t index);
 
-/// A digest of all numbers of a case, to notice a generator that changed.
+/// Computes a digest of all numbers of a case, which shows that a generator changed.
 std::uint32_t digest(const RobotCase& c);
 
 }  // namespace firstcontact::oracle

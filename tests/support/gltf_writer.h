@@ -1,5 +1,5 @@
 /// @file
-/// Writes glTF documents for tests of their reader, with which it shares no code.
+/// Writes glTF documents for tests of their reader, and shares no code with that reader.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace firstcontact::test {
 
-/// The code of a type of numbers in glTF.
+/// Returns the code of a type of numbers in glTF.
 template <class T>
 constexpr int gltf_code() {
   return std::is_same_v<T, std::int8_t>     ? 5120
@@ -62,7 +62,7 @@ inline std::string as_base64(const std::string& bytes) {
   return text;
 }
 
-/// A document in the making: members are JSON texts, the buffer is bytes.
+/// A document to be completed: members are JSON texts, the buffer is bytes.
 struct GltfWriter {
   std::string buffer;
   std::vector<std::string> views;
@@ -81,7 +81,7 @@ struct GltfWriter {
     return "[" + text + "]";
   }
 
-  /// Adds bytes; `stride` 0 for packed rows. Returns the index of the view.
+  /// Adds bytes and returns the index of their view; `stride` is 0 for packed rows.
   std::size_t add_view(const std::string& bytes, std::size_t stride = 0) {
     buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
     views.push_back(R"({"buffer":0,"byteOffset":)" + std::to_string(buffer.size()) +
@@ -91,7 +91,7 @@ struct GltfWriter {
     return views.size() - 1;
   }
 
-  /// @param head  of the accessor: its bufferView, or nothing, with a comma after each member
+  /// @param head  members of the accessor: its bufferView, or nothing, with a comma after each
   std::size_t add_accessor(const std::string& head, int code, std::size_t count,
                            const std::string& type) {
     accessors.push_back("{" + head + R"("componentType":)" + std::to_string(code) + R"(,"count":)" +
@@ -99,7 +99,7 @@ struct GltfWriter {
     return accessors.size() - 1;
   }
 
-  /// Adds rows of numbers, each padded to a whole number of words where it is not SCALAR.
+  /// Adds rows of numbers; each row is padded to whole words where it is not SCALAR.
   template <class T>
   std::size_t add_numbers(const std::vector<T>& numbers, const std::string& type,
                           const std::string& more_members = "") {
@@ -118,7 +118,7 @@ struct GltfWriter {
                         gltf_code<T>(), numbers.size() / columns, type);
   }
 
-  /// The document; `uri` is a member of its buffer with a comma after it, or empty.
+  /// Returns the document; `uri` is a member of its buffer with a comma after it, or empty.
   [[nodiscard]] std::string json(const std::string& uri) const {
     return R"({"asset":{"version":"2.0"},)" + scenes + more + R"("buffers":[{)" + uri +
            R"("byteLength":)" + std::to_string(buffer.size()) + R"(}],"bufferViews":)" +
@@ -131,7 +131,7 @@ struct GltfWriter {
     return json(R"("uri":")" + head + as_base64(buffer) + "\",");
   }
 
-  /// A GLB file; `between` are further chunks between the two.
+  /// Returns a GLB file; `between` holds further chunks between the two.
   [[nodiscard]] std::string glb(const std::string& between = "") const {
     return glb_of(json(""), buffer, between);
   }

@@ -14,20 +14,20 @@
 
 namespace firstcontact::test {
 
-/// Runs a test on one of them, its parameter.
+/// Fixture of a test that runs on one instruction set, its parameter.
 class OnInstructionSet : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override { choose(GetParam()); }
   void TearDown() override { choose(0); }
 
-  /// 0 for all that the processor has.
+  /// Selects an instruction set; 0 selects all that the processor has.
   static void choose(std::int64_t targets) {
     hwy::SetSupportedTargetsForTest(targets);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
 };
 
-/// All of them; under sanitizers the best one and the plainest.
+/// Returns all instruction sets; under sanitizers only the best one and the plainest.
 inline std::vector<std::int64_t> instruction_sets() {
   std::vector<std::int64_t> sets;
   for (std::int64_t all = detail::box_bounds_targets(); all != 0; all &= all - 1) {

@@ -1,5 +1,5 @@
 /// @file
-/// Asks the library a question of the oracle, and judges its answer.
+/// Passes a question of the oracle to the library, and checks its answer.
 
 #pragma once
 
@@ -15,24 +15,27 @@ namespace firstcontact::oracle {
 
 Shape to_shape(const MovingSoup& soup);
 Motion to_motion(const MotionInput& input);
-/// Rigid or deforming, as the soup is.
+/// Makes a rigid or deforming body, as the soup is.
 DeformingBody to_body(const MovingSoup& soup);
 
-/// The library's answer to a case; without the contact state.
+/// Returns the library's answer to a case, without the contact state.
 FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace);
 
-/// What is wrong, with the answer and the truth.
+/// Describes an error, with the answer and the truth.
 std::string describe(const char* what, const FirstContactResult& answer, const Truth& truth);
 
-/// What is wrong with an answer's verdict and time, whatever was asked: a missed contact, one too
-/// late, nothing decided. Empty where nothing is.
+/// Returns the error of an answer's verdict and time, for any options; empty where it is correct.
+///
+/// Errors are a missed contact, one too late, and an open verdict.
 std::string verdict_complaint(const FirstContactResult& answer, const Truth& truth);
 
-/// What is wrong with an answer; empty where it keeps every promise:
-/// no missed contact, none too late, none farther than margin + tolerance, decided, as asked.
+/// Returns the error of an answer; empty where it keeps every promise.
+///
+/// The promises: no missed contact, none too late, none farther than margin + tolerance, a decided
+/// verdict, and the parts that the options request.
 std::string complaint(const GeneratedCase& c, const FirstContactResult& answer, const Truth& truth);
 
-/// The same, and what differs when A and B are swapped.
+/// Returns the same, or the difference when A and B are swapped.
 std::string complaint_either_way(const GeneratedCase& c, const FirstContactResult& answer,
                                  const Truth& truth, Workspace& workspace);
 

@@ -1,6 +1,6 @@
 /// @file
-/// What the oracle is asked about: triangles and the numbers that define their motion. Plain data,
-/// independent of the library's types.
+/// Input of the oracle: triangles and the numbers that define their motion. Plain data, independent
+/// of the library's types.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace firstcontact::oracle {
 
-/// w, x, y, z; stands for itself divided by its length.
+/// Quaternion w, x, y, z; it represents itself divided by its length.
 struct Quaternion {
   double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
 };
@@ -32,17 +32,17 @@ enum class MotionKind {
   screw_waypoints,
 };
 
-/// The defining numbers of a motion; the fields that a kind does not name are unused.
+/// Numbers that define a motion; a kind uses only the fields that name it.
 struct MotionInput {
   MotionKind kind = MotionKind::fixed;
   std::vector<PoseInput> poses{PoseInput{}};  ///< The start; or both ends; or all waypoints.
-  std::vector<double> times;                  ///< Of waypoints.
-  Vector3<double> translation;                ///< Of constant_velocity.
-  Vector3<double> rotation_vector;            ///< Of constant_velocity.
-  Vector3<double> axis_point;                 ///< Of screw.
-  Vector3<double> axis_direction;             ///< Of screw; any length but zero.
-  double angle = 0.0;                         ///< Of screw.
-  double along = 0.0;                         ///< Of screw: translation along the axis.
+  std::vector<double> times;                  ///< [-]  Times of waypoints.
+  Vector3<double> translation;                ///< Displacement of constant_velocity.
+  Vector3<double> rotation_vector;            ///< Rotation of constant_velocity.
+  Vector3<double> axis_point;                 ///< Point on the axis of a screw.
+  Vector3<double> axis_direction;             ///< Axis of a screw; any length but zero.
+  double angle = 0.0;                         ///< Angle of a screw.
+  double along = 0.0;                         ///< Translation of a screw along its axis.
 };
 
 struct MovingSoup {
@@ -50,8 +50,9 @@ struct MovingSoup {
   std::vector<std::array<std::size_t, 3>> triangles;
   double radius = 0.0;
   MotionInput motion;
-  /// Where each vertex is at t = 1; in between it is on the line, whatever `motion` says. Empty
-  /// where the soup is rigid.
+  /// Position of each vertex at t = 1; empty where the soup is rigid.
+  ///
+  /// A vertex moves on the line to that position, whatever `motion` contains.
   std::vector<Vector3<double>> to;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Passages whose clearance is known by construction, and twins that nothing gets through.
+/// Passages whose clearance is known by construction, and closed twins.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace firstcontact::test {
 
-/// A body that has to get through a passage.
+/// A body that has to move through a passage.
 ///
-/// The body is as wide as `width`, the passage by `clearance` wider. Above 0 there is a way, by
-/// construction. Below 0 there is none; the proof is one for all families. The body holds a ball of
-/// diameter `width` around each point of its core. On every way a point of the core crosses some
-/// section of the passage, whose free part lies between two faces that are width + clearance apart.
-/// The ball does not fit between these.
+/// The body is as wide as `width`, and the passage is wider by `clearance`. Above 0 a path exists,
+/// by construction. Below 0 no path exists; one proof covers all families. The body holds a ball of
+/// diameter `width` around each point of its core. On every path a point of the core crosses some
+/// section of the passage, whose free part lies between two faces. Their distance is
+/// width + clearance, which is less than the diameter of the ball.
 struct NarrowPassage {
   PlanScene scene;
   Configuration start;
@@ -39,7 +39,7 @@ struct NarrowPassage {
 [[nodiscard]] std::span<const char* const> narrow_families();
 
 /// @param family     one of narrow_families()
-/// @param clearance  [m]  below 0 for a twin without a way; not 0, and of at most 0.1 m
+/// @param clearance  [m]  below 0 for a twin without a path; not 0, and at most 0.1 m
 [[nodiscard]] NarrowPassage narrow_passage(std::string_view family, double clearance);
 
 }  // namespace firstcontact::test

@@ -1,7 +1,7 @@
 /// @file
 /// Random numbers and vectors of the same bits with every compiler: + - * / and square roots only.
 ///
-/// No expression may draw twice, but for those in braces: only they have an order.
+/// No expression may draw twice, except in braces, whose order of evaluation is fixed.
 
 #pragma once
 
@@ -31,7 +31,7 @@ class PortableRandom {
     return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
-  /// A power of ten with a whole exponent, times 1 to 10 where it is `smooth`.
+  /// Draws a power of ten with a whole exponent, times 1 to 10 where it is `smooth`.
   double power_of_ten(int low, int high, bool smooth = true) {
     double value = smooth ? uniform(1.0, 10.0) : 1.0;
     for (int e = integer(low, high); e != 0; e += e < 0 ? 1 : -1) {
@@ -53,7 +53,7 @@ class PortableRandom {
       }
     }
   }
-  /// Of a length between low and high.
+  /// Draws a vector of a length between low and high.
   Vector3<double> vector(double low, double high) {
     const double length = uniform(low, high);
     return length * unit();

@@ -32,8 +32,9 @@ class Random {
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
 
-  /// Of a length between low and high. The direction is drawn first: a product of two draws would
-  /// have an order of the compiler's choice.
+  /// Draws a vector of a length between low and high.
+  ///
+  /// The direction is drawn first: in a product of two draws the compiler would choose the order.
   Eigen::Vector3d vector(double low, double high) {
     const Eigen::Vector3d along = direction();
     return uniform(low, high) * along;

@@ -9,7 +9,9 @@
 
 namespace firstcontact::oracle {
 
-/// Unlike mpq_class every operation gives a value, so that templates need not know expressions.
+/// Rational number; every operation returns a value, so that templates need no expression types.
+///
+/// In mpq_class an operation returns an expression instead.
 class Rational {
  public:
   Rational() { mpq_init(q_); }
@@ -33,7 +35,7 @@ class Rational {
     return mpq_equal(a.q_, b.q_) != 0;
   }
 
-  [[nodiscard]] double nearest() const { return mpq_get_d(q_); }  ///< Towards zero.
+  [[nodiscard]] double nearest() const { return mpq_get_d(q_); }  ///< Rounds towards zero.
 
  private:
   template <class Operation>

@@ -1,5 +1,5 @@
 /// @file
-/// One body that generators write in every format, for round trips through the readers.
+/// Body that generators write in every format, for round trips through the readers.
 
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace firstcontact::test {
 
-/// A surface as lists: no type of the library, so that a generator shares nothing with a reader.
+/// Surface as lists, without types of the library, so that a generator shares nothing with a
+/// reader.
 struct ReferenceBody {
   std::vector<std::array<double, 3>> vertices;        ///< [m]
   std::vector<std::vector<std::size_t>> polygons;     ///< Corners, counter-clockwise from outside.

@@ -1,7 +1,7 @@
 /// @file
-/// The truth about the first contact of two small meshes that hang on joints, slow and independent
-/// of the library: places in 256 bits, proofs of separation over windows of time, brute force over
-/// all pairs of triangles.
+/// True first contact of two small meshes on joints, slow and independent of the library. It uses
+/// positions in 256 bits, proofs of separation over windows of time, and brute force over all pairs
+/// of triangles.
 
 #pragma once
 
@@ -19,11 +19,13 @@ class RobotContactOracle {
  public:
   explicit RobotContactOracle(const RobotCase& c);
 
-  /// With the meaning of Truth, but that it gives up where the least gap is within 1e-13 of the
-  /// margin, relative to the size: triangles are compared in double precision.
+  /// Finds the first contact, as Truth defines it, with a wider band in which it gives up.
+  ///
+  /// It gives up where the least gap is within 1e-13 of the margin, relative to the size, because
+  /// triangles are compared in double precision.
   [[nodiscard]] Truth first_contact(std::size_t window_budget = 20'000) const;
 
-  /// The distance of the thickened meshes at one time, from both sides.
+  /// Bounds the distance of the thickened meshes at one time.
   [[nodiscard]] DistanceBounds distance(double t) const;
 
  private:

@@ -1,12 +1,13 @@
 /// @file
-/// How much a test asks.
+/// Number of cases of a test.
 
 #pragma once
 
 namespace firstcontact::test {
 
-/// How many cases a test tries: fewer where sanitizers, which look at how each is answered, make it
-/// slow. The optimised run tries them all.
+/// Returns the number of cases that a test tries; fewer where sanitizers make it slow.
+///
+/// A sanitizer checks how each case is computed. The optimised run tries all cases.
 constexpr int rounds(int optimised, int sanitized) {
   return FIRSTCONTACT_SANITIZED ? sanitized : optimised;
 }

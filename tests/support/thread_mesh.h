@@ -1,4 +1,4 @@
-// Threads with facets: rods and, a little wider, nuts.
+// Meshes of threads with facets: rods and, a little wider, nuts.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 namespace firstcontact::test {
 
 struct Thread {
-  int segments = 24;    // Of a turn.
-  int turns = 3;        // About the z axis, from z = 0 on.
-  double lead = 0.5;    // [m]  Of one turn.
-  double radius = 1.0;  // [m]  Of the root.
+  int segments = 24;    // Number of segments of a turn.
+  int turns = 3;        // Number of turns about the z axis, from z = 0 on.
+  double lead = 0.5;    // [m]  Advance of one turn.
+  double radius = 1.0;  // [m]  Radius of the root.
   double depth = 0.2;   // [m]
-  double wider = 0.0;   // [m]  By so much, for a nut.
-  double shift = 0.0;   // [rad]  Where facets begin.
+  double wider = 0.0;   // [m]  Addition to the radius, for a nut.
+  double shift = 0.0;   // [rad]  Angle at which facets begin.
 };
 
 inline Shape make_thread(const Thread& thread) {

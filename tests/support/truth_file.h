@@ -13,7 +13,7 @@
 
 namespace firstcontact::oracle {
 
-/// The answer to one generated case; `digest` tells whether the case is still the same.
+/// Answer to one generated case; a changed `digest` shows that the case is no longer the same.
 struct StoredTruth {
   std::uint32_t digest = 0;
   TruthKind kind = TruthKind::gave_up;
@@ -21,17 +21,17 @@ struct StoredTruth {
   double hi = 1.0;
 };
 
-/// Where the answers of a family lie, below the folder of test data.
+/// Returns the path of a family's answers, below the folder of test data.
 std::filesystem::path truth_path(const std::filesystem::path& data, Family family);
 std::filesystem::path truth_path(const std::filesystem::path& data, RobotFamily family);
 
-/// The answers to cases 0, 1, 2, ... of the file; none where there is no file.
+/// Reads the answers to cases 0, 1, 2, ... of the file; none where there is no file.
 std::vector<StoredTruth> read_truth(const std::filesystem::path& path);
 
-/// Adds answers at the end.
+/// Appends answers to the file.
 void append_truth(const std::filesystem::path& path, const std::vector<StoredTruth>& truth);
 
-/// Asks the oracle.
+/// Computes the answer of the oracle.
 StoredTruth find_truth(const GeneratedCase& c);
 StoredTruth find_truth(const RobotCase& c);
 

@@ -7,7 +7,7 @@
 
 namespace firstcontact::oracle {
 
-/// 113 bits; only ever a guess that Wide then proves.
+/// Number of 113 bits; used only for estimates that Wide then proves.
 __extension__ using Quad = __float128;
 
 template <class T>
@@ -33,7 +33,7 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The columns of a rotation.
+/// Matrix by its columns, such as those of a rotation.
 template <class T>
 struct Matrix3 {
   std::array<Vector3<T>, 3> column{};

@@ -49,7 +49,7 @@ class Wide {
   [[nodiscard]] double upper() const { return mpfr_get_d(&v_->right, MPFR_RNDU); }
   [[nodiscard]] double nearest() const { return mpfi_get_d(v_); }
 
-  /// The middle, rounded: the sum of three doubles.
+  /// Returns the middle, rounded, as the sum of three doubles.
   [[nodiscard]] Quad quad() const {
     mpfr_t rest;
     mpfr_init2(rest, kWidePrecision);
@@ -64,7 +64,7 @@ class Wide {
     return sum;
   }
 
-  /// 2^exponent times this, exactly.
+  /// Returns 2^exponent times this, exactly.
   [[nodiscard]] Wide scaled(long exponent) const {
     Wide result{NoValue{}};
     mpfi_mul_2si(result.v_, v_, exponent);
@@ -74,7 +74,8 @@ class Wide {
  private:
   struct NoValue {};
 
-  // The digits live in the object: millions of small heap blocks would dominate the oracle's time.
+  // The digits are stored in the object: millions of small heap blocks would dominate the oracle's
+  // time.
   explicit Wide(NoValue) {
     mpfr_custom_init_set(&v_->left, MPFR_ZERO_KIND, 0, kWidePrecision, digits_[0]);
     mpfr_custom_init_set(&v_->right, MPFR_ZERO_KIND, 0, kWidePrecision, digits_[1]);
@@ -99,7 +100,7 @@ class Wide {
   mpfi_t v_;
 };
 
-/// The exact value of a quad.
+/// Returns the exact value of a quad.
 inline Wide exact(Quad value) {
   Wide sum;
   for (int i = 0; i < 3; ++i) {

@@ -16,18 +16,18 @@
 
 namespace firstcontact::test {
 
-/// What a format keeps of a coordinate.
+/// Precision that a format keeps of a coordinate.
 enum class Keeps { doubles, floats, whole_numbers };
 
 /// A body as the bytes of a file.
 struct WrittenBody {
-  std::string name;       ///< What is particular about it.
-  std::string extension;  ///< With its dot.
+  std::string name;       ///< Special feature of the file.
+  std::string extension;  ///< Extension, with its dot.
   std::string bytes;
   Keeps keeps = Keeps::doubles;
 };
 
-/// Shortest of the usual notations that comes back to the last bit.
+/// Writes the shortest of the usual notations that gives the same double.
 inline std::string decimal(double value) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.17g", value);
@@ -55,7 +55,7 @@ inline std::string with_line_ends(const std::string& text, const std::string& en
 // ---- OBJ
 
 struct ObjStyle {
-  std::string corner;  ///< What follows the number of a vertex; "?" stands for a number.
+  std::string corner;  ///< Text after the number of a vertex; "?" stands for a number.
   bool negative = false;
   bool faces_first = false;
 };
@@ -169,7 +169,7 @@ class PlyBody {
   std::string& out_;
 };
 
-/// @param further  whether there are other elements and properties between what counts
+/// @param further  whether other elements and properties stand between those of the body
 template <class Coordinate, class Index>
 std::string to_ply(const ReferenceBody& body, PlyFormat format, const std::string& coordinate,
                    const std::string& index, bool further) {
@@ -212,7 +212,7 @@ std::string to_ply(const ReferenceBody& body, PlyFormat format, const std::strin
   return out;
 }
 
-/// Whether every coordinate is one of the least type.
+/// Returns whether every coordinate is a value of the smallest type.
 inline bool has_small_whole_numbers(const ReferenceBody& body) {
   return std::all_of(body.vertices.begin(), body.vertices.end(), [](const auto& p) {
     return std::all_of(p.begin(), p.end(),
