@@ -21,7 +21,7 @@ constexpr double kOfLaws = 1e-8;  // [m/s]
 ContactBody cube_of(double mass) {
   ContactBody body;
   body.inverse_inertia.mass = Vector3d::Constant(1.0 / mass);
-  body.inverse_inertia.rotation = 6.0 / mass * Matrix3d::Identity();  // Of side 1.
+  body.inverse_inertia.rotation = 6.0 / mass * Matrix3d::Identity();  // Cube of side 1.
   return body;
 }
 

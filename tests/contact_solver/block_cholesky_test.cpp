@@ -72,7 +72,7 @@ TEST(BlockCholesky, SolvesAsADenseOne) {
   }
 }
 
-// What hangs together like a star keeps its blocks where the middle comes last.
+// Blocks coupled like a star give no further blocks where the middle comes last.
 TEST(BlockCholesky, TakesAStarAndWhatIsAlone) {
   std::mt19937 rng(2);
   Pairs pairs;

@@ -48,7 +48,8 @@ class ContactBatchesOn : public test::OnInstructionSet {
   }
 };
 
-// To the last digits without friction. What slides is found by a few Newton steps in each sweep.
+// Without friction both agree to the last digits. A sliding contact is solved by a few Newton steps
+// in each sweep.
 TEST_P(ContactBatchesOn, SweepAsRowsDoInTheirOrder) {
   std::mt19937 rng(1);
   for (const double friction : {0.0, 3.0}) {

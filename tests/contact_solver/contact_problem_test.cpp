@@ -34,7 +34,7 @@ Matrix3d random_frame(std::mt19937& rng) {
 ContactBody cube(double mass, const Vector3d& v = Vector3d::Zero()) {
   ContactBody body;
   body.inverse_inertia.mass = Vector3d::Constant(1.0 / mass);
-  body.inverse_inertia.rotation = 6.0 / mass * Matrix3d::Identity();  // Of side 1.
+  body.inverse_inertia.rotation = 6.0 / mass * Matrix3d::Identity();  // Cube of side 1.
   body.v = v;
   return body;
 }
@@ -253,7 +253,7 @@ ContactProblem in_a_bowl(std::mt19937& rng, double friction) {
     ContactPoint contact = on_ground(0.0, 0.0, friction);
     contact.frame *=
         (turn * Eigen::AngleAxisd(slope(rng), Vector3d::UnitX())).toRotationMatrix().transpose();
-    const Vector3d out(1.0, 0.7, 0.9);  // Of an ellipsoid: the bowl holds it.
+    const Vector3d out(1.0, 0.7, 0.9);  // Semi-axes of an ellipsoid: the bowl holds it.
     contact.arm_B = -0.5 * contact.frame.row(0).transpose().cwiseProduct(out);
     contact.arm_A = contact.arm_B;
     contact.least_normal_velocity = way(rng);
@@ -262,7 +262,7 @@ ContactProblem in_a_bowl(std::mt19937& rng, double friction) {
   return problem;
 }
 
-// Of all these contacts few press; what they allow is what all of them together do.
+// Few of these contacts press; their solution satisfies all of them together.
 TEST(ProjectOnContacts, SolvesThousandsOfContactsByTheFewThatDecide) {
   std::mt19937 rng(11);
   for (const double friction : {0.0, 0.1, 0.6}) {
@@ -319,8 +319,7 @@ TEST(ProjectOnContacts, StartsFromAGoodGuess) {
   EXPECT_LE(project_on_contacts(problem, {.tolerance = 2.0 * kTolerance}).iterations, 1);
 }
 
-// Of the impulses of the step before two are far off: they leave more than no impulses at all
-// would.
+// Two impulses of the step before are far off: with them the residual is larger than with none.
 TEST(ProjectOnContacts, WrongGuessesSpoilNoOthers) {
   std::mt19937 rng(5);
   ContactProblem problem = test::wall(rng, 12, 12, 0.5, 0.0);
@@ -371,7 +370,7 @@ TEST(ProjectOnContacts, SweepsEndEarlyButNearTheTolerance) {
   EXPECT_LE(2 * ended.iterations, project_on_contacts(problem, kAll).iterations);
 }
 
-// What is hit hard is solved to a part of that; weight alone as exactly as ever.
+// A hard hit is solved to a fraction of its speed; weight alone as exactly as ever.
 TEST(ProjectOnContacts, LeavesAPartOfHits) {
   std::mt19937 rng(8);
   for (const double speed : {0.0, 1.0}) {

@@ -87,8 +87,8 @@ TEST(InteriorPoint, SlidingWallsConvergeInRounds) {
   }
 }
 
-// What many contacts are given to, and what it may leave.
-// Sweeps that left little enough are the answer; else it is found from inside.
+// The solver of many contacts, and the residual that it may leave. Sweeps that leave a small enough
+// residual are the answer; else the interior point method finds it.
 TEST(ProjectOnContacts, LeavesWhatIsEnough) {
   std::mt19937 rng(9);
   const ContactProblem problem = wall(rng, 10, 10, 0.5);

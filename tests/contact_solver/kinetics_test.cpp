@@ -24,7 +24,7 @@ Pose random_pose(std::mt19937& rng) {
   return {random_vector(rng), Eigen::Quaterniond(n(rng), n(rng), n(rng), n(rng))};
 }
 
-/// Of a body of some points, which no axis suits.
+/// Inertia of a body of some points, whose principal axes are no coordinate axes.
 Inertia random_inertia(std::mt19937& rng) {
   Inertia inertia;
   inertia.mass = std::exp(random_vector(rng).x());
@@ -180,7 +180,7 @@ TEST(FreeTurn, AboutTwoAxesKeepsEnergyAndMomentum) {
       }
       const double error =
           std::abs(kinetic_energy(inertia, end) / kinetic_energy(inertia, begin) - 1.0);
-      ASSERT_LE(error, 0.3 * before + 1e-12) << i;  // Of second order in the step.
+      ASSERT_LE(error, 0.3 * before + 1e-12) << i;  // The error is of second order in the step.
       before = error;
     }
   }

@@ -102,7 +102,7 @@ TEST(ReSolve, MeetsTheLawsOfTheWhole) {
   EXPECT_LE(imbalance(c.problem, again), 1e-12);
 }
 
-// What it pressed elsewhere before it does not press there any more.
+// A moved contact does not press at its old place any more.
 TEST(ReSolve, BalancesContactsThatMovedOrOpen) {
   Solved c;
   ASSERT_LE(imbalance(c.problem, c.solution), 1e-12);

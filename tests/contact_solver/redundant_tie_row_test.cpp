@@ -35,7 +35,7 @@ class Draw {
   std::mt19937 generator_;
 };
 
-/// Of two bodies, from one row of twelve numbers.
+/// Makes a row of two bodies from twelve numbers.
 TieRow row_of(const VectorXd& numbers) {
   TieRow row;
   for (std::size_t b = 0; b < 2; ++b) {

@@ -160,7 +160,7 @@ TEST(EdgeChecker, FreesAnEdgeWithItsClearance) {
   EXPECT_GE(close.clearance.value(), gap - 1e-5);
 }
 
-// What planners keep of an edge that is blocked must be free itself, as its end is rounded.
+// A planner keeps a part of a blocked edge; that part must be free itself, as its end is rounded.
 TEST(EdgeChecker, ProvesTheWayToTheRoundedPlace) {
   const PlanScene scene = with_gantry(thin_wall(0.3));
   const EdgeChecker checker(scene);
@@ -327,7 +327,7 @@ TEST(EdgeChecker, HoldsAPairToItsOwnDistance) {
   for (const EdgeAnswer& answer : {held.check(start, away), held.check_quickly(start, away),
                                    held.check_closely(start, away)}) {
     EXPECT_EQ(answer.verdict, EdgeVerdict::free);
-    EXPECT_GE(answer.clearance.value(), 0.01);  // Of the post.
+    EXPECT_GE(answer.clearance.value(), 0.01);  // Clearance of the post.
   }
   EXPECT_NEAR(held.check_closely(start, away).clearance.value(), 0.3, 1e-3);
   EXPECT_EQ(held.check(start, {-1.0, 1.0, -0.00048}).verdict, EdgeVerdict::free);

@@ -429,7 +429,7 @@ TEST(RigidIpcFixtures, BeginWithBodiesApart) {
   }
 }
 
-// What the scenes were made for: gaps that are round numbers there.
+// The scenes were made with gaps that are round numbers.
 TEST(RigidIpcFixtures, BeginAsFarApartAsTheyWereMade) {
   if (fixtures().empty()) {
     GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR";

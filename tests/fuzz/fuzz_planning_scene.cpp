@@ -40,7 +40,7 @@ void fuzz_request(std::string_view text) {
   }
 }
 
-/// What messages have, and what they may be taken for.
+/// Words of the messages, and words that may be mistaken for them.
 constexpr std::array<std::string_view, 44> kWords = {"world",
                                                      "collision_objects",
                                                      "id",

@@ -28,8 +28,8 @@ std::string read_and_write(const std::string& text) {
   return written;
 }
 
-/// Any bytes give a run, or a ParseError of one line. What was read is written and read back as it
-/// was.
+/// Any bytes give a run, or a ParseError of one line. A run that was read is written and read back
+/// unchanged.
 void fuzz_run(const std::string& text) {
   std::string written;
   try {

@@ -16,7 +16,7 @@ namespace {
 using firstcontact::test::require;
 using firstcontact::test::SceneBits;
 
-/// What was read is written and read back as it was.
+/// Requires that a scene that was read is written and read back unchanged.
 void require_round_trip(const firstcontact::Scene& scene) {
   try {
     const std::string written = firstcontact::write_scene(scene);

@@ -38,7 +38,7 @@ void fuzz_trajectory(std::string_view text, const char* file) {
 
 }  // namespace
 
-/// What trajectories have, and what they may be taken for.
+/// Words of trajectories, and words that may be mistaken for them.
 constexpr std::array<std::string_view, 26> kWords = {"joint_names",
                                                      "points",
                                                      "header",

@@ -82,7 +82,7 @@ std::vector<ConvexSet> random_sets(test::Random& random) {
           ConvexSet::ellipsoid(box),        ConvexSet::hull(points)};
 }
 
-/// Of any length, and now and then along an axis or nearly so.
+/// Draws a direction of any length, sometimes along an axis or nearly so.
 Vector3d any_direction(test::Random& random) {
   Vector3d n = random.direction();
   if (random.chance(0.2)) {

@@ -92,7 +92,7 @@ TEST(MassProperties, OfABallAndACapsuleAreInClosedForm) {
   const double ball = 4.0 / 3.0 * kPi * 8.0;
   expect_near(mass_properties(make_sphere(2.0)),
               {ball, Vector3d::Zero(), 0.4 * ball * 4.0 * Matrix3d::Identity()}, 1e-15);
-  // Of its cylinder and of its two half balls, each about its own centre of mass and moved.
+  // Sum of the cylinder and the two half balls, each about its own centre of mass and moved.
   const double cylinder = kPi * 4.0 * 3.0;
   const double offset = 1.5 + 3.0 / 8.0 * 2.0;
   const double across =

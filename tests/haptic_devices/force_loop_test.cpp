@@ -1,4 +1,4 @@
-// What devices promise to the force loop: reading and commanding allocates nothing.
+// Contract of devices with the force loop: reading and commanding allocate nothing.
 #include <cstdlib>
 #include <memory>
 #include <new>

@@ -342,7 +342,7 @@ TEST(SimulatedOperator, TremblesByTheGivenAmount) {
   double turns = 0.0;
   int crossings = 0;
   double last = 0.0;
-  constexpr int kSteps = 1000;  // Of 20 ms: 20 s.
+  constexpr int kSteps = 1000;  // 20 s in steps of 20 ms.
   for (int step = 0; step < kSteps; ++step) {
     (void)hand.read(step * std::int64_t{20'000'000});
     const HandTarget target = hand.truth().target;

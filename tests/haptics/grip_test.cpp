@@ -458,7 +458,8 @@ TEST(Grip, NothingActsOnceTheDeviceIsLostOrMakesNoSense) {
   EXPECT_NEAR(session.joint(0), held, 1e-6);  // The fingers stay.
 }
 
-// What pushes a finger while the clutch is pressed displaces it for that time only.
+// A contact that pushes a finger while the clutch is pressed displaces the finger for that time
+// only.
 TEST(Grip, FingersStayWhereTheClutchFoundThem) {
   DeviceMapping mapping = one_grip();
   mapping.clutch_button = 0;

@@ -310,8 +310,8 @@ TEST(HapticSession, ToolStaysWhereItsDeviceWasLostOrClutched) {
   }
 }
 
-// A floor that rises at a constant rate pushes a cube that the hand holds still. What is felt is
-// where the floor is now, neither a cycle before nor after it.
+// A floor that rises at a constant rate pushes a cube that the hand holds still. The felt force is
+// that of the floor's present position, neither a cycle before nor after it.
 TEST(HapticSession, FeelsSurfacesWhereTheyAreNow) {
   constexpr double kSpeed = 0.1;  // [m/s]
   for (const double rate : {1000.0, 100.0}) {

@@ -1,4 +1,4 @@
-// What both loops share: run under the thread sanitizer.
+// Data that both loops share: run under the thread sanitizer.
 
 #include <array>
 #include <atomic>
@@ -207,8 +207,8 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.
 }
 
-/// What the caller throws reaches the caller, long before the session would have ended: both
-/// threads have stopped, and the device is let go.
+/// An exception of a callback reaches the caller, long before the session would have ended. Both
+/// threads have stopped, and the device is released.
 TEST(WallSession, EndsWithWhatTheCallerThrows) {
   const HapticSessionOptions options{.force_rate = 500.0, .contact_rate = 100.0};
   const WallSessionOptions wall{.duration = 3600.0, .real_time = false};

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kDistance = 1e-5;  // [m]  The contact distance.
 
-/// Of a cube of 2 m that lies on a plate by a gap, and moves.
+/// Returns the proven part of the motion of a cube of 2 m, which begins at a gap above a plate.
 ProvenPart proven_part(double gap, const Vector3d& way, const Vector3d& turn = Vector3d::Zero()) {
   const std::vector<HapticMember> members = {{.shape = make_box({9.0, 9.0, 2.0})},
                                              {.shape = make_box({2.0, 2.0, 2.0})}};

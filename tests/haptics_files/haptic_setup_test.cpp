@@ -1,4 +1,4 @@
-// What a scene file says of haptics, and what is refused.
+// Haptic settings of a scene file, and those that are refused.
 
 #include <stdexcept>
 #include <string>
@@ -68,7 +68,7 @@ TEST(HapticSetup, NamesWhatIsWrong) {
   expect_refused(scene_text(R"({"tools": [{"body": "peg"}]})", R"(, "dynamics": {})"), "pose");
 }
 
-/// What is wrong with a scene that can be read.
+/// Returns the message of the error in a scene that can be read.
 std::string refusal(const std::string& text) {
   Scene scene = parse_scene(text, "scene.json");
   ShapeCache cache;

@@ -69,7 +69,8 @@ TEST(LeverTie, ALightRodHoldsALoad) {
                              "points": [[0.25, 0, 0], null]})"));
   const std::vector<RunStep> steps = run(s, 100);
   EXPECT_LE(farthest(steps, 0, {-0.5, 0, 0}, Vector3d::Zero()), 1e-6);
-  EXPECT_LE(std::abs(energy_of(steps.back()) - energy_of(steps.front())), 0.05);  // Of 7.4 J.
+  // The energy at the start is 7.4 J.
+  EXPECT_LE(std::abs(energy_of(steps.back()) - energy_of(steps.front())), 0.05);
 }
 
 // Guesses of their forces turn such links without end; shorter plans find them.

@@ -53,7 +53,7 @@ TEST(Rest, EndsTheMotionOfWhatContactsHold) {
   EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
-// What presses is what carried the weight before: the floor bears both blocks.
+// The contacts that carried the weight before still press: the floor bears both blocks.
 TEST(Rest, KeepsItsContacts) {
   Simulator s = simulator(kFloor + "," + block("a", 0.1002, R"({"mass": 2})") + "," +
                               block("b", 0.3004, R"({"mass": 3})"),
@@ -143,7 +143,7 @@ TEST(Rest, EndsWhereSomethingFallsOnIt) {
   EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven);
 }
 
-// What was carried falls.
+// The block that was carried falls.
 TEST(Rest, EndsWhereABodyIsTakenAway) {
   Simulator s = simulator(kFloor + "," + block("a", 0.1001) + "," + block("b", 0.3002), kSettings);
   ASSERT_LT(first_rest(run(s, 100), 2), 100);

@@ -507,7 +507,7 @@ TEST(Tie, WeldCarriesALoad) {
   EXPECT_LE((steps.back().ties[1].force - Vector3d(0, 0, 5.0 * kGravity)).norm(), 1e-5);
 }
 
-// What hangs still sleeps, and what swings does not.
+// A hanging body at rest sleeps, and a swinging one does not.
 TEST(Tie, HangingBodiesSleepAtEquilibriumAlone) {
   const double sag = kGravity / 100.0;
   const std::string spring = kSpring + R"("stiffness": 100, "damping": 1})";

@@ -30,8 +30,8 @@ double product(double a, double b) {
 constexpr double kSmallest = std::numeric_limits<double>::min();
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 
-// What the proofs rely on: ties go to even in both directions, half the smallest normal number
-// survives as an operand and as a result.
+// Rules of the processor that the proofs need: ties go to even in both directions; half the
+// smallest normal number survives as an operand and as a result.
 bool arithmetic_is_standard() {
   return sum(1.0, 0.5 * kUlp) == 1.0 && sum(-1.0, -0.5 * kUlp) == -1.0 &&
          sum(1.0, 0.75 * kUlp) == 1.0 + kUlp && sum(-1.0, -0.75 * kUlp) == -1.0 - kUlp &&

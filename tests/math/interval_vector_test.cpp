@@ -37,7 +37,7 @@ class Members {
     Matrix3<Wide> member;
   };
 
-  /// @param width  of the intervals; 0: points
+  /// @param width  width of the intervals; 0 for points
   explicit Members(double width) : width_(width) {}
 
   Number number() {

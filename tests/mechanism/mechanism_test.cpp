@@ -26,7 +26,7 @@ LinkInertia point_mass(double mass, const Vector3d& at) { return {.mass = mass, 
 LinkInertia random_inertia(std::mt19937& rng) {
   std::normal_distribution<double> n;
   const Eigen::Matrix3d root = Eigen::Matrix3d::NullaryExpr([&] { return n(rng); });
-  // Of points: what is a body's.
+  // Second moments of points, so that the inertia is that of a real body.
   const Eigen::Matrix3d points = root * root.transpose() + 0.1 * Eigen::Matrix3d::Identity();
   return {.mass = std::exp(n(rng)),
           .p_LC = {n(rng), n(rng), n(rng)},
@@ -113,7 +113,7 @@ TEST(Mechanism, APendulumSwingsInItsPeriod) {
   EXPECT_NEAR(state.velocities[0], 0.0, 1e-7);
 }
 
-/// What changes by a step of free motion: energy, and without gravity momentum.
+/// Changes over a step of free motion: energy, and without gravity momentum.
 struct Drift {
   double energy = 0.0;
   double linear = 0.0;

@@ -1,5 +1,5 @@
-// What writers leave beside the geometry of COLLADA documents does no harm; what could hold or
-// place geometry and is not understood is refused.
+// Content that writers leave beside the geometry of COLLADA documents is ignored. Content that
+// could hold or place geometry and is not understood is refused.
 
 #include <clocale>
 #include <locale>

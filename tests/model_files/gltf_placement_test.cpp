@@ -1,4 +1,4 @@
-// What places and shapes the meshes of glTF: scenes, nodes, instances, skins, morph targets.
+// Placement and shape of the meshes of glTF: scenes, nodes, instances, skins, morph targets.
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// What the reader of glTF refuses, leaves out or warns of: by name, in one line.
+// Content that the reader of glTF refuses, leaves out or warns of: by name, in one line.
 
 #include <cstdint>
 #include <limits>
@@ -22,7 +22,7 @@ using test::mesh_text;
 using test::plain_gltf;
 using test::primitive_text;
 
-/// What a document becomes by one change of its text, and what is said of it.
+/// One change of a document's text, and the message that it causes.
 struct Change {
   std::string from;
   std::string to;

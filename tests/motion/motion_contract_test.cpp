@@ -137,7 +137,7 @@ std::vector<double> times_of(const MotionPiece& piece, std::mt19937_64& random) 
   return {piece.t_begin, uniform(random), uniform(random), uniform(random), piece.t_end};
 }
 
-/// What the bound allows and what happens, along n from t to t'.
+/// The displacement that the bound allows and the actual one, along n from t to t'.
 struct SecondOrder {
   double allowed = 0.0;
   double moved = 0.0;

@@ -77,7 +77,7 @@ struct Case {
 TEST(AdvanceDeforming, HoldsForAllThatDriftAndBendAllow) {
   constexpr double kThreshold = 0.05;
   int advanced = 0;
-  double used = 0.0;  // Of the gap, on average.
+  double used = 0.0;  // Used part of the gap, on average.
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
     Random random(seed);
     const Case c(random);

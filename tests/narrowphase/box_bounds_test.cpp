@@ -490,7 +490,7 @@ TEST_P(BoxBoundsOn, FlagsSayWhatTheNumbersSay) {
   }
 }
 
-// What is not a number proves nothing.
+// A number that is NaN proves nothing.
 TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Random random(7);

@@ -391,7 +391,8 @@ struct Judged {
   ConvexContact answer;
 };
 
-/// What is wrong with an answer, by distances at many times before it, ever nearer to it.
+/// Returns the error of an answer, by distances at many times before it that come closer and
+/// closer.
 Judged judge(const Bodies& bodies, double margin, double tolerance) {
   const ConvexContact found = bodies.first_contact(margin, tolerance);
   const double threshold = margin + bodies.A.rounding() + bodies.B.rounding();

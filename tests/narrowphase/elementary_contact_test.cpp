@@ -346,7 +346,7 @@ struct Tally {
   }
 };
 
-/// Of the answers of one verdict.
+/// Mean number of steps for each verdict.
 struct MeanSteps {
   double free = 0.0;
   double contact = 0.0;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// What all pairs of features say together.
+/// Sums of the answers for all pairs of features.
 struct Answers {
   double t_lower = kNever;   ///< No contact before.
   double t_proven = kNever;  ///< End of the first proven contact.

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 using oracle::Rational;
 
 constexpr double kBand = 0.4;        // [m]
-constexpr double kRounding = 1e-14;  // Of the size.
+constexpr double kRounding = 1e-14;  // [-]  Relative to the size.
 
 oracle::Triangle<Rational> exact(const Triangle& T) {
   const auto corner = [](const Vector3d& v) -> oracle::Vector3<Rational> {

@@ -25,8 +25,8 @@ using Eigen::Vector3d;
 using oracle::Quad;
 using Rng = std::mt19937_64;
 
-/// What is varied: positions and velocities in space, in a plane, on a line; with corners at one
-/// place; at rest.
+/// Families of positions and velocities: in space, in a plane, on a line, with corners at one
+/// place, at rest.
 enum class Family { general, coplanar, parallel, collinear, zero_length, one_velocity, at_rest };
 
 constexpr int kFamilies = static_cast<int>(Family::at_rest) + 1;
@@ -35,7 +35,7 @@ constexpr int kFamilies = static_cast<int>(Family::at_rest) + 1;
 struct Question {
   bool edges = false;
   std::array<LinearPoint, 4> corners;  ///< Face and vertex, or A's ends and B's.
-  double t_contact = 0.0;              ///< Of an exact contact that was built in; -1 if none was.
+  double t_contact = 0.0;  ///< [-]  Time of an exact contact that was built in; -1 if none was.
   LinearContactOptions options;
 };
 
@@ -143,7 +143,7 @@ double distance(const Question& q, double t) {
   return std::sqrt(nearest(oracle::closest_points(A, B).distance2));
 }
 
-/// What is wrong with an answer; empty where nothing is.
+/// Returns the error of an answer; empty where it is correct.
 std::string complaint(const Question& q, const LinearContact& answer) {
   if (answer.verdict == LinearVerdict::undecided) {
     return "undecided";

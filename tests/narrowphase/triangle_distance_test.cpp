@@ -92,7 +92,7 @@ using Pair = std::pair<Triangle, Triangle>;
 struct Kind {
   const char* name;
   std::function<Pair(Random&)> draw;
-  double tolerance;  ///< Of the distance, relative to the size.
+  double tolerance;  ///< [-]  Tolerance of the distance, relative to the size.
 };
 
 Triangle moved(Triangle T, const Vector3d& by) {
@@ -211,7 +211,7 @@ TEST_P(TriangleDistanceOn, IsThatOfItsPointsWhichLieOnTheTriangles) {
 /// Where the closest points are unique: none of the tie-ridden kinds.
 TEST_P(TriangleDistanceOn, NamesTheFeaturesThatHoldTheClosestPoints) {
   Random random;
-  std::array<int, 6> met{};  // Of each pair of types.
+  std::array<int, 6> met{};  // Number of cases of each pair of types.
   for (int i = 0; i < 8 * kPairs; ++i) {
     SCOPED_TRACE(i);
     const Triangle A = random.triangle();
@@ -326,7 +326,8 @@ TEST_P(FeaturePairsWithinOn, HoldsEachPairOfFeaturesOnce) {
   EXPECT_GE(found.count, 4u);
 }
 
-// Of a corner that lies on a face to the last bit no edge pierces it: the corner touches.
+// A corner lies on a face to the last bit, and none of its edges pierces the face: the corner
+// touches.
 TEST_P(TriangleDistanceOn, NamesTheCornerThatTouchesAFace) {
   const Triangle face{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)};
   const Triangle upright{Vector3d(0.125, 0.125, 0), Vector3d(1, 0, 1), Vector3d(0, 1, 1)};

@@ -52,8 +52,8 @@ class BodyAmongRobots : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// @param robot  what it has beside its name and its file
-  /// @param more   of the plan of the ball
+  /// @param robot  members of the robot besides its name and its file
+  /// @param more   further members of the plan of the ball
   [[nodiscard]] ScenePlan plan(const std::string& robot, const std::string& more,
                                const std::string& start = "[-0.5, 0, 0]") const {
     const Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [

@@ -344,7 +344,7 @@ TEST_F(GantryFile, LeavesOutTheMotionOfWhatIsHeld) {
   EXPECT_FALSE(planned_path(plan, plan.options, result).clearance);
 }
 
-// Of the places of a goal many are in contact: a joint that does not move the link decides.
+// Many configurations of a goal are in contact: a joint that does not move the link decides.
 TEST_F(GantryFile, LooksForFreePlacesOfAGoal) {
   std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry"><link name="base"/>
       <link name="slide"/>

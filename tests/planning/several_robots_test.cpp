@@ -65,7 +65,7 @@ std::optional<double> time_in_cube(const Eigen::Vector3d& from, const Eigen::Vec
   return begin <= end ? std::optional(begin) : std::nullopt;
 }
 
-/// Of robot b in the axes of robot a.
+/// Returns the pose of robot b in the axes of robot a.
 Eigen::Vector3d relative(const Configuration& q) { return {q[3] - q[0], q[4] - q[1], q[5] - q[2]}; }
 
 TEST(SeveralRobots, AreOneSpace) {

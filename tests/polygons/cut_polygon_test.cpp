@@ -340,7 +340,7 @@ bool covers_edge(const Polygon& polygon, const std::vector<Triangle>& triangles,
          });
 }
 
-// What exporters write for holes and for sloppy drawings: rings that touch themselves.
+// Exporters write rings that touch themselves for holes and for inexact drawings.
 TEST(CutPolygon, CoversRingsThatTouchThemselves) {
   struct Case {
     const char* name;

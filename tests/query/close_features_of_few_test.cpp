@@ -260,7 +260,7 @@ TEST(CloseFeatures, OfFewTrianglesEndWithTheBand) {
 
 TEST(CloseFeatures, OfPlacedShapesAreThoseOfMotionsThatRest) {
   std::mt19937 rng(2);
-  const Shape ball = make_cylinder(0.5, 1.0);  // Of many triangles.
+  const Shape ball = make_cylinder(0.5, 1.0);  // Has many triangles.
   for (int trial = 0; trial < 500; ++trial) {
     Case c = any_case(rng, trial);
     c.B = trial % 7 == 0 ? ball : c.B;

@@ -25,7 +25,7 @@ namespace {
 using Rng = std::mt19937_64;
 using Vec = Vector3<double>;
 
-/// What is varied beyond places, radius, margin and tolerance.
+/// Kinds of questions; all of them also vary positions, radius, margin and tolerance.
 enum class Kind {
   general,      ///< Both deform.
   rigid,        ///< One moves rigidly: at rest, straight and turning, on a screw, by waypoints.
@@ -54,7 +54,7 @@ double uniform_in(Rng& rng, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-/// Of a size of about 1; with few bits, so that much of it coincides exactly.
+/// Draws a vector of a size of about 1, with so few bits that many coordinates coincide exactly.
 Vec random_vector(Rng& rng, Kind kind) {
   const auto coordinate = [&] {
     const double x = uniform_in(rng, -1.0, 1.0);

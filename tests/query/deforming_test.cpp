@@ -80,7 +80,7 @@ TEST(Deforming, ContactOfAFaceHasTheVelocityOfItsPoint) {
   ASSERT_FALSE(result.contacts.empty());
   const Contact& contact = result.contacts.front();
   ASSERT_TRUE(contact.n_AB_W.has_value());
-  // Of the point at height z = 4 t y, along the normal.
+  // Velocity along the normal of the point at height z = 4 t y.
   const double velocity = 4.0 * contact.p_WA.y() * contact.n_AB_W->z();
   EXPECT_NEAR(contact.normal_velocity, -velocity, 1e-9);
 }
@@ -230,7 +230,7 @@ TEST(Deforming, KeepsHalfOfItsStartDistance) {
   EXPECT_LE(left, 0.75 * start);
 }
 
-// What a solid contains follows its surface, which may grow over a body only by touching it.
+// A solid follows its moving surface; the surface may grow over a body only by touching it.
 TEST(Deforming, SolidsContainAndGrow) {
   const Shape box = make_box({1, 1, 1});
   Points larger = box.mesh().vertices;

@@ -24,7 +24,7 @@
 namespace firstcontact::oracle {
 namespace {
 
-constexpr std::size_t kStoredCases = 1'100;  // Of each family.
+constexpr std::size_t kStoredCases = 1'100;  // Number of stored cases of each family.
 constexpr int kShownComplaints = 10;
 
 std::string label(Family family, std::uint64_t index) {

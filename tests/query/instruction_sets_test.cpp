@@ -14,7 +14,7 @@
 namespace firstcontact::oracle {
 namespace {
 
-constexpr std::size_t kCases = 60;  // Of each family.
+constexpr std::size_t kCases = 60;  // Number of cases of each family.
 
 using FirstContactOn = test::OnInstructionSet;
 

@@ -115,7 +115,7 @@ std::vector<Named> cubes() {
 
 /// A path of the cube over the floor that rests: both are placed by `X_WF`.
 struct Path {
-  Vector3d from;  // Of the cube's centre in the floor's frame.
+  Vector3d from;  // Position of the cube's centre in the floor's frame.
   Vector3d way;
   Vector3d turn = Vector3d::Zero();
 };

@@ -26,11 +26,11 @@ using Eigen::Vector3d;
 using oracle::LinearFamily;
 using oracle::LinearQuery;
 
-constexpr double kFine = 1e-18;  // Of sizes of about 1.
+constexpr double kFine = 1e-18;  // [m]  For sizes of about 1.
 
 Vector3d vector(const oracle::Vector3<double>& v) { return {v.x, v.y, v.z}; }
 
-/// What both ways to ask say alike.
+/// The part of the answer that both functions give.
 struct Answer {
   bool is_free = false;
   bool is_contact = false;

@@ -56,7 +56,7 @@ TEST(FirstContact, TimeIsInverselyProportionalToTheSpeed) {
   EXPECT_NEAR(time_at_speed(4.0), 2.0 * fast, 1e-6);
 }
 
-// What is near at the time of the first contact is what the first contact lists.
+// The features that are close at the time of the first contact are those that it lists.
 TEST(CloseFeatures, AreThoseOfTheFirstContact) {
   const Shape A = waves(24, 0.1);
   const Shape B = waves(20, 0.2);
@@ -266,7 +266,7 @@ TEST(ClosestApproach, EndsWithItsBudget) {
   EXPECT_EQ(result.lower_bound, 0.0);
 }
 
-// What is said to be the least distance is attained, and no sample is closer.
+// The least distance of the answer is attained, and no sample is closer.
 TEST(ClosestApproach, IsAttainedAndBoundsEverySample) {
   const Shape A = waves(6, 0.1);
   const Shape B = waves(5, 0.2);

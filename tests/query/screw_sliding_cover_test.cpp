@@ -274,7 +274,7 @@ TEST(ScrewSlidingCover, SparesFirstContactMostOfItsWork) {
   EXPECT_LT(found.work.node_groups + found.work.steps, 2000u);
 }
 
-// Of very many close features all are listed or, where the nearest ones will do, these.
+// All of very many close features are listed; where the nearest ones are enough, only these.
 TEST(ScrewSlidingCover, ListsTheNearestFeatures) {
   const Shape inner = test::make_thread({.segments = 60, .turns = 8});
   const Shape outer = test::make_thread({.segments = 60, .turns = 6, .wider = 0.03, .shift = 1.0});

@@ -125,7 +125,7 @@ std::vector<double> times_before(double t) {
 
 constexpr double kRounding = 1e-9;  ///< [m]  Of exact_distance.
 
-/// What is wrong with an answer, by the distance of the exact bodies; empty where nothing is.
+/// Returns the error of an answer, by the distance of the exact bodies; empty where it is correct.
 std::string complaint(const Question& q, const FirstContactResult& answer) {
   if (answer.verdict == Verdict::undecided) {
     return "undecided";
@@ -189,7 +189,7 @@ bool contains_other(const Question& q) {
          is_inside(q.B, q.motion_B, q.A.soup, q.motion_A);
 }
 
-/// What is wrong by the oracle, of bodies made of simplices.
+/// Returns the error of an answer by the oracle, for bodies made of simplices.
 std::string oracle_complaint(const Question& q, const FirstContactResult& answer) {
   GeneratedCase c{q.A.soup, q.B.soup, q.options.margin, q.options.tolerance};
   c.A.motion = q.motion_A;

@@ -80,7 +80,7 @@ TEST(SurfaceNeighbours, EdgesBulgeBetweenTheNormalsOfTheirFaces) {
   }
 }
 
-// What a corner slides over touches only what is below it.
+// A sliding corner touches only surfaces below it.
 TEST(SurfaceNeighbours, RoundingOfADirectionDoesNotHideAFlatEdge) {
   const Shape cube = make_box({2.0, 2.0, 2.0});
   const SurfaceNeighbours neighbours(cube, 0.0);
@@ -100,7 +100,7 @@ TEST(SurfaceNeighbours, CornersOfATiltedFaceAreOutermostWithinTheSlack) {
   const Shape cube = make_box({2.0, 2.0, 2.0});
   constexpr double kSlack = 1e-3;
   const SurfaceNeighbours neighbours(cube, kSlack);
-  for (const double raised : {0.9 * kSlack, 1.1 * kSlack}) {  // Of the edge at x = 1.
+  for (const double raised : {0.9 * kSlack, 1.1 * kSlack}) {  // Height of the edge at x = 1.
     const Vector3d down = Vector3d(-raised / 2.0, 0.0, -1.0).normalized();
     for (std::uint32_t v = 0; v < cube.mesh().vertices.size(); ++v) {
       const Vector3d& p = cube.mesh().vertices[v];

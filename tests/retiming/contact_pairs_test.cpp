@@ -123,7 +123,7 @@ TEST(ContactPairs, OpenAtTheirWaypointInAllModes) {
     EXPECT_LE(retimed.motion.duration(), before);
     before = retimed.motion.duration();
     if (mode != RetimingMode::stop) {
-      EXPECT_EQ(retimed.blends, 2u);  // Of three: it rests where the pair opens.
+      EXPECT_EQ(retimed.blends, 2u);  // Not 3: the robot rests where the pair opens.
     }
     const double open = retimed.proof.held.at(0).to;
     EXPECT_LT(open, retimed.motion.duration());

@@ -143,10 +143,10 @@ TEST(ProveMotion, LeavesJointsThatDoNotMoveBeyondTheirLimits) {
   const WaypointPath moving{{"x", "y"}, {{0, 0.065}, {0.3, 0.066}}};
   const RetimedMotion beyond = retime(moving, limits, where);
   ASSERT_EQ(beyond.proof.positions.size(), 1u);
-  EXPECT_EQ(beyond.proof.positions[0].violations.size(), 2u);  // Of y, and of what mimics it.
+  EXPECT_EQ(beyond.proof.positions[0].violations.size(), 2u);  // Joint y and its mimic.
 }
 
-// What is proven is the file: a number changed in it changes the answer.
+// The proof is about the file: a changed number in the file changes the answer.
 TEST(ProveMotion, ProvesTheFile) {
   const RetimingScene where = arm_beside_plate(1, kPlate);
   const std::vector<RateLimits> limits{{2.0, 10.0, 200.0}};

@@ -124,7 +124,8 @@ TEST(LinkScratch, ChangesNothing) {
   }
 }
 
-/// What two links share cancels: their bounds do not see the base, nor the joints before them.
+/// The common part of two links cancels: their bounds contain neither the base nor the joints
+/// before.
 TEST(LinkPath, RelativeMotionStartsAtTheLastCommonAncestor) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const ChainCase c = random_chain(seed, {.joints = 8});
@@ -184,7 +185,7 @@ WindowCase random_window(std::uint64_t seed, const ChainOptions& options, double
   const LinkPath& piece = pieces[static_cast<std::size_t>(random.uniform(0.0, 0.999) *
                                                           static_cast<double>(pieces.size()))];
   w.from = piece.t_begin() + random.uniform(0.0, 0.5) * (piece.t_end() - piece.t_begin());
-  double rate = options.turning_only ? 0.0 : 2.0;  // Of the base and of joints with a pose.
+  double rate = options.turning_only ? 0.0 : 2.0;  // Rate of the base and of joints with a pose.
   for (const auto& joint : w.chain.coordinates) {
     for (const auto& pieces_of_one : joint) {
       for (const oracle::ExactCoordinate& q : pieces_of_one) {
@@ -279,7 +280,9 @@ struct Excess {
   double mean = 0.0;
 };
 
-/// Of the bound of speed over the true greatest one, in units of the greatest over all directions.
+/// Excess of the bound of speed over the true greatest speed.
+///
+/// It is in units of the greatest speed over all directions.
 Excess excess_of_speed(const ChainOptions& options, double travel) {
   LinkScratch scratch;
   Excess excess;

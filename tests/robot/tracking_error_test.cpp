@@ -143,7 +143,7 @@ TEST(TrackingError, OfAPoseIsThatOfTheChildsFrame) {
   }
 }
 
-/// What is free with errors is so for random motions within them.
+/// A motion that is free with errors is free for random motions within them.
 TEST(TrackingError, EveryMotionInTheTubeIsFree) {
   constexpr std::size_t kBars = 4;
   const std::array<double, 5> times = {0.0, 0.25, 0.5, 0.75, 1.0};
@@ -198,7 +198,7 @@ TEST(TrackingError, EveryMotionInTheTubeIsFree) {
   EXPECT_LE(close, 60);
 }
 
-/// Of motions that end just outside of the tube's reach some touch: the bound is not too far.
+/// Some motions that end just outside of the tube's reach touch: the bound is not too far.
 TEST(TrackingError, TheBoundOfABentArmIsReached) {
   constexpr double kError = 1e-3;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {

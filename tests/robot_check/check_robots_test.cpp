@@ -764,7 +764,7 @@ TEST(CheckRobots, OpensFewOfTheManyTrianglesThatTouchAtOnce) {
       EXPECT_LE(result.t, truth);
       EXPECT_GE(result.t, truth - 1e-5);
       EXPECT_LT(result.work.total(), 12'000u)
-          << turn << ' ' << end;  // Of 100,000 pairs of triangles.
+          << turn << ' ' << end;  // There are 100,000 pairs of triangles.
     }
   }
 }

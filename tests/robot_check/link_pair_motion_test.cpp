@@ -1,5 +1,5 @@
-// What queries are told of two links: places, twists, and how far the exact motion departs from the
-// model that goes on with them.
+// Motion of two links as queries get it: poses, twists, and a bound of the departure. The departure
+// is that of the exact motion from the model that extrapolates it.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Vector3d model_displacement(const RelativeState& state, const Vector3d& p, doubl
 
 struct Departure {
   double worst_excess = -1.0;  ///< [m]  Over the bound; below 0 where it holds.
-  double share = 0.0;          ///< [-]  Of the bound at the window's end, the greatest.
+  double share = 0.0;  ///< [-]  Greatest departure at the window's end, divided by the bound.
 };
 
 /// A random chain, seen from a resting body, over one window from its start and from its middle.
@@ -64,7 +64,7 @@ Departure departure(std::uint64_t seed) {
         const double apart = norm(exact - exact_point(model)).nearest();
         const double bend = state.bend_of(0.0, (p - state.p_AQb).norm());
         const double most = state.drift * tau + 0.5 * bend * tau * tau;
-        // What this test rounds: the model's displacement, and t + tau.
+        // Rounding errors of this test: the model's displacement, and t + tau.
         const double size = p.norm() + (p - state.p_AQb).norm() + ball.radius;
         const double rounding = 1e-15 * (size * (1.0 + state.rate_B) + model.norm());
         found.worst_excess = std::max(found.worst_excess, apart - most - rounding);
@@ -111,7 +111,7 @@ TEST(LinkPairMotion, ASteadyHingeHasNoBend) {
   EXPECT_LE((motion.state(0.0).p_AQb).norm(), 1e-12);  // The pole is on the axle.
 }
 
-/// What is near the axle bends less.
+/// A point near the axle bends less.
 TEST(LinkPairMotion, BendGrowsWithTheDistanceFromThePole) {
   const RobotMotion robot = planar_motion({ramp(0.0, 1.0), ramp(0.0, 0.5)});
   const LinkMotion arm = robot.link(2);

@@ -67,7 +67,7 @@ class SampledShape {
   }
 
  private:
-  /// Of a convex solid: boxes and prisms are the only ones here.
+  /// Returns whether a convex solid holds the other shape; boxes and prisms are the only ones here.
   [[nodiscard]] bool holds(const Eigen::Isometry3d& X_WA, const SampledShape& B,
                            const Eigen::Isometry3d& X_WB) const {
     if (!shape_.is_solid()) {
@@ -212,7 +212,7 @@ struct Family {
   int frees = 0;
   int undecided = 0;
   std::array<int, kSteps.size()> missed = {};
-  int grazes = 0;         ///< Of those missed: not even fine samples collide.
+  int grazes = 0;         ///< Missed motions in which not even fine samples collide.
   int beyond_limits = 0;  ///< Motions that leave a joint limit.
 };
 

@@ -32,8 +32,8 @@ namespace firstcontact::test {
 namespace {
 
 constexpr int kTries = 30;                // To start without a collision.
-constexpr int kSamples = 200;             // Of each motion, before its first contact.
-constexpr double kFclError = 1e-9;        // [m]  Of FCL's distances in double precision.
+constexpr int kSamples = 200;             // Samples of each motion, before its first contact.
+constexpr double kFclError = 1e-9;        // [m]  Error of FCL's distances in double precision.
 constexpr double kTouchingAtRest = 1e-3;  // [m]  Pairs as near as that at rest are left out.
 
 struct RobotFiles {

@@ -42,7 +42,7 @@ RobotScene folding(const PairRules& rules = PairRules()) {
   return scene;
 }
 
-/// Of the bars that are not neighbours, and of each bar and the ball.
+/// Computes the gap of the bars that are not neighbours, and of each bar and the ball.
 double expected_gap(double t) {
   std::vector<double> angles;
   for (const auto& [from, to] : kTurns) {

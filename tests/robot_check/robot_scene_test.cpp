@@ -156,7 +156,7 @@ TEST(RobotScene, NamesWhatIsWrong) {
   EXPECT_TRUE(is_named(error_of([&] { scene.add_robot("ball", still_arm(1)); }), "'ball'"));
   const std::vector<DisabledPair> beyond = {{0, 9, ""}};
   EXPECT_TRUE(is_named(error_of([&] { scene.add_robot("b", still_arm(1), beyond); }), "link 9"));
-  EXPECT_EQ(scene.size(), 4u);  // What was refused left nothing.
+  EXPECT_EQ(scene.size(), 4u);  // The refused bodies left nothing.
   for (const double bad : {-1.0, nan, infinity}) {
     EXPECT_TRUE(is_named(error_of([&] { scene.set_padding(3, bad); }), "'ball'"));
     EXPECT_TRUE(

@@ -17,7 +17,7 @@
 namespace firstcontact::oracle {
 namespace {
 
-constexpr std::size_t kStoredCases = 460;  // Of each family.
+constexpr std::size_t kStoredCases = 460;  // Number of stored cases of each family.
 static_assert(kStoredCases * kRobotFamilyCount > 5'000);
 constexpr int kShownComplaints = 10;
 

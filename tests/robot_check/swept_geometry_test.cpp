@@ -174,7 +174,7 @@ TEST(SweptGeometry, GapsHoldAtAllTimesOfTheWindow) {
   EXPECT_GT(proven, test::rounds(100, 30));
 }
 
-/// What a window's length costs falls with it.
+/// The error due to a window's length falls with that length.
 TEST(SweptGeometry, ShortWindowsAreTight) {
   int apart = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -234,7 +234,7 @@ struct KnownRobot {
   const char* path;
   std::size_t links;
   std::size_t moving;
-  std::size_t triangles;  ///< Of collision meshes.
+  std::size_t triangles;  ///< Number of triangles of collision meshes.
 };
 
 class ReadUrdfData : public testing::TestWithParam<KnownRobot> {};

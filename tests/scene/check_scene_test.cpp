@@ -182,7 +182,7 @@ TEST(CheckScene, AStopLeavesEveryPairUndecided) {
   const SceneResult result = check(scene(kThree), {.stop = stop.get_token()});
   EXPECT_EQ(result.verdict, Verdict::undecided);
   EXPECT_EQ(result.reason, UndecidedReason::cancelled);
-  EXPECT_LT(result.t, 1.0);  // What the first bounds prove may stand.
+  EXPECT_LT(result.t, 1.0);  // The part that the first bounds prove may remain.
 }
 
 // Forty pairs: more than are asked side by side.

@@ -185,7 +185,7 @@ TEST_F(ShapeCaches, NameARobotByItsMeshesToo) {
   EXPECT_NE(digest(kPyramid + "# more\n"), pyramid);
 }
 
-// What no triangle uses is no part of a hull, and a scale is one of everything.
+// A vertex that no triangle uses is no part of a hull; a scale applies to every kind of file.
 TEST_F(ShapeCaches, MakeHullsOfVerticesThatTrianglesUse) {
   for (const double scale : {1.0, 0.5}) {
     const Shape hull = cache_.load({.source = ConvexHullShape{file(scale)}, .radius = 0.1}).shape;

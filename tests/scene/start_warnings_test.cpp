@@ -1,4 +1,4 @@
-// What looks wrong where a scene begins: bodies inside of surfaces, and units.
+// Warnings about the start of a scene: bodies inside surfaces, and units.
 
 #include <filesystem>
 #include <fstream>

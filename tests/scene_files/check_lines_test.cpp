@@ -109,7 +109,7 @@ TEST_F(CheckLines, AdjustsTheOptionsOfEveryScene) {
   }
 }
 
-// What is handed over before a stop is a beginning of the whole.
+// The lines that were handed over before a stop are the beginning of all lines.
 TEST_F(CheckLines, EndsWithWholeAnswersAtAStop) {
   const std::vector<LineAnswer> whole = answers(1000, {});
   std::stop_source source;

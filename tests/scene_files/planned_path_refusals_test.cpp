@@ -31,7 +31,7 @@ std::string path_said_of(const std::string& text) {
   return message.starts_with(place) ? message.substr(place.size()) : message;
 }
 
-/// What is said of the path's file with `from` replaced by `to`.
+/// Returns the message about the path's file with `from` replaced by `to`.
 std::string path_said(const PlannedPath& path, const std::string& from, const std::string& to) {
   std::string text = write_planned_path(path);
   const std::size_t at = text.find(from);

@@ -1,4 +1,4 @@
-// What the files of a question may say together, and what is refused.
+// Combinations that the files of a question may contain, and those that are refused.
 
 #include <cstddef>
 #include <filesystem>

@@ -172,7 +172,7 @@ TEST(ReadSummary, TakesLinesThatAreLines) {
             "r.jsonl:5: expected a result with a \"verdict\" or an \"error\"");
 }
 
-// What is not there, or not finite, is the least claim.
+// A value that is missing or not finite is read as the least claim.
 TEST(ReadResult, ClaimsTheLeastOfWhatIsNotThere) {
   const std::string scene = test::scene(test::body("a"));
   const StoredResult none = read_result(R"({"verdict": "free", "scene": )" + scene + "}", "r");

@@ -149,7 +149,7 @@ TEST_F(RobotQuestions, FollowTrajectoriesAsGivenUnlessAsked) {
   EXPECT_EQ(check(asked).verdict, Verdict::free);
 }
 
-// What was answered is in the result, and the scene in it asks the same again.
+// The result contains the answered question, and the scene in it gives the same answer again.
 TEST_F(RobotQuestions, SayWhichWayWasTaken) {
   const Scene scene = read_robot_question(between_states("behind.json"));
   const LoadedScene loaded = load(scene);

@@ -1,5 +1,5 @@
-// What shapes, motions, poses, forces and ties may not be, beyond what malformed_scene_test.cpp
-// has: each with its whole message. What stands just inside of a range is accepted.
+// Refused shapes, motions, poses, forces and ties, beyond those of malformed_scene_test.cpp: each
+// with its whole message. Values just inside a range are accepted.
 
 #include <cstddef>
 #include <optional>

@@ -153,7 +153,7 @@ class SceneText {
     text += maybe(R"("base": )" + pose()) + maybe(R"("padding": {"bar": )" + positive() + "}");
     text += maybe(R"("tracking_error": )" + positive()) + R"(, "state": {"elbow": )" +
             positive(1e-9, 1.0) + "}";
-    // Of the bodies that rest each robot holds another.
+    // Each robot holds a different body at rest.
     text += R"(, "attached": [{"body": )" + quoted(kOddNames[name == "r" ? 2 : 5]) +
             R"(, "link": "tip", "touch_links": ["bar", "base"])" + maybe(R"("pose": )" + pose()) +
             maybe(R"("to_time": 0.5)") + "}]";

@@ -83,7 +83,7 @@ TEST(DroppedRobots, BounceWithMotorsAndWithout) {
   }
 }
 
-/// What a robot of one joint carries along, and where its joint is.
+/// A robot of one joint, the body that it carries, and the position of its joint.
 class Carried : public testing::Test {
  protected:
   Carried()

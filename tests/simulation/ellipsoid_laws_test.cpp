@@ -39,7 +39,7 @@ struct Rocking {
     return std::hypot(rolling.x() * std::sin(q), rolling.z() * std::cos(q));
   }
 
-  /// Of q'' from q and w = q': 2 T = (moment + h^2 + h'^2) w^2, and the potential is g h.
+  /// Computes q'' from q and w = q': 2 T = (moment + h^2 + h'^2) w^2, and the potential is g h.
   [[nodiscard]] double acceleration(double q, double w) const {
     const double h = height(q);
     const double squares = rolling.x() * rolling.x() - rolling.z() * rolling.z();

@@ -72,7 +72,7 @@ TEST(CarryImpulses, EndWithTheirTouch) {
   EXPECT_TRUE(carried({touch({1, 2}, 7, 0.0, 3.0)}, {}).empty());
 }
 
-// Of many touches they are found by features and by place, as in a list looked through in order.
+// Many touches are found by features and by place, as in a list that is searched in order.
 TEST(CarryImpulses, GoToTheSameOfManyAsInAList) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> uniform;
@@ -196,7 +196,7 @@ TEST_F(ManifoldOfCubes, IsEmptyBeyondTheBand) {
   EXPECT_EQ(above(band * (1.0 + 1e-6)).gap, std::numeric_limits<double>::infinity());
 }
 
-// What was found of other pairs before changes nothing.
+// Contacts that were found of other pairs before change nothing.
 TEST_F(ManifoldOfCubes, IsThatOfTheContactsOfItsPairAlone) {
   std::mt19937 rng(4);
   std::size_t touches = 0;

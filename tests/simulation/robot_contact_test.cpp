@@ -95,7 +95,7 @@ TEST_F(RobotContact, ATopPrecessesAsLagrangeHasIt) {
   }
 }
 
-/// What acts on the joints of an arm.
+/// Torques on the joints of an arm.
 using JointTorques = std::function<Vector2d(const Swing&)>;
 
 /// [m]  How much the end of an arm rises with its angles, and how much the lowest point of the ball

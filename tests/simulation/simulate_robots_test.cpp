@@ -343,7 +343,7 @@ TEST_F(SimulateRobots, MotorsWithoutBoundStopAtLimits) {
   }
 }
 
-// What a limit and a script ask for cannot both be had: as of a body that is crushed, time is lost.
+// A limit and a script contradict each other: as for a crushed body, time is lost.
 TEST_F(SimulateRobots, LimitsDoNotGiveWayToAPress) {
   const std::string urdf =
       robot_of("<link name=\"base\"/>" + link("sled", 2.0, "0 0 0", "<box size=\"0.1 0.1 0.1\"/>") +
@@ -522,7 +522,7 @@ TEST_F(SimulateRobots, RefusesStatesBeyondLimits) {
                      R"(<limit lower="-2" upper="2" effort="0" velocity="9"/>)"));
   Simulator s = simulator(scene(urdf, R"("dynamics": {"base": "fixed"})", "", ""));
   MechanismState state = s.robot_states()[0];
-  for (const double inside : {-2.0, 0.5, 2.0, 2.0005}) {  // What a simulation gives way, too.
+  for (const double inside : {-2.0, 0.5, 2.0, 2.0005}) {  // A simulation may go as far.
     state.positions[0] = inside;
     EXPECT_NO_THROW(s.set_robot_state(0, state)) << inside;
   }

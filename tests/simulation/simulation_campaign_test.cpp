@@ -39,10 +39,11 @@ constexpr double kSpacing = 0.8;   // [m]  Of the places where bodies start; non
 constexpr double kReach = 0.35;    // [m]  From a body's origin, at most.
 constexpr std::size_t kMost = 10;  // Free bodies.
 
-/// Of the energy at the start: turning is of second order in the step, and bodies that are pushed
-/// apart are lifted.
+/// [-]  Relative to the energy at the start.
+///
+/// Turning has errors of second order in the step, and bodies that are pushed apart are lifted.
 constexpr double kEnergy = 1e-3;
-/// Of the sum of all bodies' momenta.
+/// [-]  Relative to the sum of all bodies' momenta.
 constexpr double kMomentum = 1e-9;
 
 std::string text(double value) {
@@ -136,7 +137,7 @@ struct CampaignScene {
   std::string bodies;
   std::string robots = {};
   std::string simulation;
-  std::string urdf = {};   ///< Of the robot.
+  std::string urdf = {};   ///< Text of the robot's URDF.
   bool is_driven = false;  ///< A body is moved through the others, or joints have motors.
   bool is_alone = false;   ///< Only free bodies, without gravity.
 

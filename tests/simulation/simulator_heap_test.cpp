@@ -84,7 +84,7 @@ TEST(Simulator, FallingHeapOfManyLosesEnergyProvenApart) {
 // than 300 contacts rests as exactly as heaps are solved.
 TEST(Simulator, WallRestsOnTheCornersOfItsBricks) {
   constexpr int kRows = 7;
-  constexpr int kColumns = 10;   // Of the lowest row; each has one less than the one below.
+  constexpr int kColumns = 10;   // Columns of the lowest row; every row up has one less.
   constexpr double kGap = 5e-4;  // [m]
   std::string bodies = kFloor;
   for (int row = 0; row < kRows; ++row) {

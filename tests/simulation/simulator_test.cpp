@@ -431,7 +431,7 @@ TEST(Simulator, TakesStatesFromOutside) {
   EXPECT_GT(s.states()[1].X_WB.position.z(), 1.9);
 }
 
-/// What a scene that cannot be simulated is told.
+/// Returns the message about a scene that cannot be simulated.
 std::string refusal(const std::string& bodies, const std::string& settings = "") {
   try {
     (void)simulator(bodies, settings);

@@ -57,7 +57,7 @@ TEST(Stack, OfHeavyBlocksOnLightOnesStands) {
   }
 }
 
-// Of five blocks the four upper ones overhang by 5/2 shifts at most: beyond half a block they tip.
+// The four upper ones of five blocks overhang by 5/2 shifts at most: beyond half a block they tip.
 TEST(Stack, TipsWhereItsWeightIsBesideItsBase) {
   Simulator leaning = stack(5, 0.0399);
   expect_rest(drift(leaning, 1.0));

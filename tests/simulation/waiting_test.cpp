@@ -25,7 +25,7 @@ using test::numbers;
 using test::run;
 
 constexpr double kApart = 1e-4;   // [m]  Contact distance.
-constexpr std::size_t kLeft = 2;  // Of the press.
+constexpr std::size_t kLeft = 2;  // Index of the left jaw of the press.
 
 /// A jaw whose face is 0.05 m inside of its place: 0.25 m from the middle at first, nearest at 1 s,
 /// and where it was at 2 s.

@@ -143,7 +143,7 @@ void expect_trajectory_messages(const std::vector<MalformedText>& cases) {
   }
 }
 
-/// Of the joint "turn", with these points.
+/// Returns a trajectory of the joint "turn" with these points.
 MalformedText points(const std::string& points, const std::string& message) {
   return {"t", R"({"joint_names": ["turn"], "points": [)" + points + "]}", "t.json:1: " + message};
 }

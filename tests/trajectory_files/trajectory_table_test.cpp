@@ -26,7 +26,7 @@ std::string table_error(const std::string& text) {
   return "accepted";
 }
 
-/// What every table below says, however it is written.
+/// Expects the motion that every table below contains, in any notation.
 void expect_the_motion(const Trajectory& trajectory, const std::string& text) {
   EXPECT_EQ(trajectory.joint_names, (std::vector<std::string>{"turn", "lift"})) << text;
   ASSERT_EQ(trajectory.points.size(), 2u) << text;
@@ -139,7 +139,7 @@ TEST(TrajectoryTable, LeavesOutEffortsWithAWarning) {
       (std::vector<std::string>{"t.csv: efforts are left out: turn.effort, /arm/lift/effort"}));
 }
 
-// As JSON reads them. What is too large for a double stays an error.
+// Numbers are read as in JSON. A number that is too large for a double stays an error.
 TEST(TrajectoryTable, TakesNumbersTooSmallForADoubleAsZeros) {
   for (const std::string small : {"1e-400", "-1e-400", "+1,5e-5000", "0,0001e-330"}) {
     expect_the_motion(parse_table("time;turn;lift\n" + small + ";0,1;-2e-3\n1,5;1;0,5\n"), small);

@@ -451,7 +451,7 @@ TEST(ContactPairs, OpenForALinkOfARobot) {
   }
 }
 
-// What a robot holds stands 0.2 mm above a table; the link that holds it is not tested against it.
+// A held body is 0.2 mm above a table; the link that holds it is not tested against the table.
 TEST(ContactPairs, LiftWhatARobotHolds) {
   const test::ArmFolder folder;
   write_gantry(folder);

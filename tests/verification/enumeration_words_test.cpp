@@ -26,8 +26,8 @@ namespace {
 
 /// One table, and where its words stand again; empty where they do not.
 struct WordTable {
-  std::string name;                    // Of the Python enumeration.
-  std::span<const char* const> words;  // In C++.
+  std::string name;                    // Name of the Python enumeration.
+  std::span<const char* const> words;  // Words in C++.
   std::vector<std::string> schemas = {};
   std::vector<std::string> scripts = {};
   bool is_in_python = true;

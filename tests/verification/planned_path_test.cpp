@@ -1,5 +1,4 @@
-// What the planner writes is proven again from its file; a shortcut through what is in the way
-// never.
+// A path of the planner is proven again from its file; a shortcut through an obstacle never is.
 
 #include <cstddef>
 #include <cstdint>

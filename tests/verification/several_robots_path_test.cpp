@@ -52,7 +52,8 @@ TEST(SeveralRobotsPath, IsWrittenReadAndProven) {
   EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
   EXPECT_EQ(proof.edges, path.waypoints.size() - 1);
   EXPECT_TRUE(proof.reaches_goal);
-  // Of bar and tip of the two arms 4 pairs, and of each with those of the third.
+  // The four bars and tips of two arms form 4 pairs; each of the four links forms 2 more with the
+  // third arm.
   EXPECT_EQ(proof.tested, 4u + 2u * 4u);
 }
 

@@ -258,7 +258,7 @@ class RandomRobot {
   std::string scene_;
 };
 
-/// What became of the cases of a campaign.
+/// Outcomes of the cases of a campaign.
 struct Tally {
   int free = 0;
   int contact = 0;

@@ -120,7 +120,7 @@ TEST(VerifyResult, NeverProvesALaterTime) {
     ResultClaims edited = claims;
     edited.t = edited.time = claims.t + later;
     EXPECT_NE(verdict_of(edited), ProofVerdict::proven) << tolerance << ", later by " << later;
-    // What is left open is shorter by far than what was added.
+    // The part left open is far shorter than the added time.
     EXPECT_LE(verify_result(claims).left_open, 1e-11);
   }
 }
@@ -219,7 +219,7 @@ PairClaim& claim_of(ResultClaims& claims, const std::string& a, const std::strin
   return *std::ranges::find(*claims.pairs, std::array<std::string, 2>{a, b}, &PairClaim::pair);
 }
 
-// What stands beside the verdict of a pair is proven, too, or the file is called broken.
+// The numbers beside the verdict of a pair are proven, too, or the file is called broken.
 TEST(VerifyResult, LooksAtTheNumbersOfPairs) {
   const ResultClaims claims = claims_of(fly_by_of_three(), {.all_pairs = true, .closest = true});
   ASSERT_EQ(verify_result(claims).verdict, ProofVerdict::proven) << verify_result(claims).problem;

@@ -157,7 +157,7 @@ TEST(VerifyRun, KeepsItsPrecisionFarFromTheOrigin) {
   EXPECT_EQ(run.verify().verdict, ProofVerdict::proven);
 }
 
-// Of edges that pass each other in a gap far shorter than the way that they go.
+// Edges pass each other in a gap far shorter than their displacement.
 TEST(VerifyRun, ProvesEdgesThatPassClosely) {
   RecordedRun run(R"({"firstcontact": 1, "bodies": [
     {"name": "mover", "shape": {"box": {"size": [1, 1, 1]}},
@@ -457,7 +457,7 @@ TEST(VerifyRun, GivesTheSameAnswerOnEveryNumberOfThreads) {
   EXPECT_LT(one.greatest_jump, 1e-14);
 }
 
-/// What is said of the crates after their record was changed.
+/// Returns the message about the crates after a change of their record.
 template <class Change>
 RunVerification after(const Change& change) {
   RecordedRun run = crates();
