@@ -12,8 +12,10 @@
 
 namespace firstcontact::test {
 
-/// Bricks 2 m wide, 1 m high and deep and of 1 kg, each on two of the row below, the lowest on the
-/// ground (body 0); with random velocities and 0.1 m/s downwards.
+/// Makes a wall of bricks, 2 m wide, 1 m high and deep and of 1 kg, each on two of the row below.
+///
+/// The lowest bricks stand on the ground (body 0). Velocities are random, with 0.1 m/s downwards
+/// added.
 inline ContactProblem wall(std::mt19937& rng, int rows, int columns, double friction,
                            double speed = 0.02) {
   std::normal_distribution<double> normal(0.0, speed);
@@ -60,7 +62,7 @@ inline ContactProblem wall(std::mt19937& rng, int rows, int columns, double fric
   return problem;
 }
 
-/// Two rows of bricks, of which the upper ones are heavier.
+/// Makes two rows of bricks, of which the upper ones are heavier.
 inline ContactProblem wall_with_heavy_top(std::mt19937& rng, int columns, double friction,
                                           double heavier) {
   ContactProblem problem = wall(rng, 2, columns, friction);
@@ -71,7 +73,7 @@ inline ContactProblem wall_with_heavy_top(std::mt19937& rng, int columns, double
   return problem;
 }
 
-/// No impulses.
+/// Makes a projection without impulses.
 inline detail::Projection nothing(const ContactProblem& problem, const detail::ContactRows& rows) {
   detail::Projection projection;
   projection.impulses.contacts.assign(problem.contacts.size(), Eigen::Vector3d::Zero());

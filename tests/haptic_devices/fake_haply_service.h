@@ -21,7 +21,7 @@
 
 namespace firstcontact::test {
 
-/// Answers each message with one state, as the service does. What it does wrong is set by members.
+/// Service that answers each message with one state; members set its errors.
 class FakeHaplyService {
  public:
   explicit FakeHaplyService(std::string inventory) : inventory_(std::move(inventory)) {
@@ -53,12 +53,12 @@ class FakeHaplyService {
 
   std::atomic<bool> stopped{false};
   std::atomic<bool> hang_up{false};  ///< Ends the connection once.
-  std::atomic<bool> mute{false};     ///< Answers nothing.
+  std::atomic<bool> mute{false};     ///< Sends no answer.
   std::atomic<int> drop_every{0};    ///< Leaves out each n-th answer; 0 for none.
-  std::atomic<int> delay_us{0};      ///< Before each answer.
+  std::atomic<int> delay_us{0};      ///< [us]  Delay before each answer.
   std::atomic<bool> ping{false};     ///< Sends a ping once.
   std::atomic<bool> split{false};    ///< Sends answers as two frames.
-  std::atomic<int> pongs{0};         ///< That came.
+  std::atomic<int> pongs{0};         ///< Number of pongs that were received.
   std::atomic<int> connections{0};
 
  private:

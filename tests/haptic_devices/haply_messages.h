@@ -7,7 +7,7 @@
 
 namespace firstcontact::test {
 
-/// The first message of 3.1 to 3.4, with a wired grip.
+/// First message of versions 3.1 to 3.4, with a wired grip.
 inline const char* const kInventoryBefore35 = R"({
 "inverse3": [{"device_id": "04BA",
   "config": {"type": "inverse3", "device_info": {"minor_version": 1, "major_version": 7, "id": "04BA", "model": 4, "uuid": "2D35"},
@@ -22,7 +22,7 @@ inline const char* const kInventoryBefore35 = R"({
   "state": {"button": true, "hall": 0, "orientation": {"x": -0.5019531, "y": 0.8632202, "z": -0.048095703, "w": -0.022338867}},
   "status": {"error": 0, "ready": true}}]})";
 
-/// The first message of 3.5, with a wireless grip.
+/// First message of version 3.5, with a wireless grip.
 inline const char* const kInventorySince35 = R"({
 "session_id": 7,
 "inverse3": [{"device_id": "049D",
@@ -40,7 +40,7 @@ inline const char* const kInventorySince35 = R"({
   "state": {"orientation": {"w": 0.0, "x": 1.0, "y": 0.0, "z": 0.0}, "buttons": {"a": false, "b": true, "c": true}, "hall": 3, "battery_level": 0.8},
   "status": {"connected": true, "awake": true, "ready": true}}]})";
 
-/// A later message.
+/// Writes a message after the first.
 inline std::string haply_state(const std::string& device, double x, bool ready = true) {
   return R"({"inverse3":[{"device_id":")" + device + R"(","state":{"cursor_position":{"x":)" +
          std::to_string(x) + R"(,"y":-0.14,"z":0.17},"cursor_velocity":{"x":0,"y":0,"z":0}},)" +

@@ -1,5 +1,5 @@
 /// @file
-/// Servers of tests on local sockets, and waits for what another thread does.
+/// Servers of tests on local sockets, and functions that wait for another thread.
 
 #pragma once
 
@@ -26,7 +26,7 @@
 
 namespace firstcontact::test {
 
-/// Waits until something holds. The limit is only for what never comes to hold.
+/// Waits until a condition holds; the time limit matters only where it never does.
 inline bool eventually(const std::function<bool()>& holds) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!holds()) {
@@ -38,13 +38,13 @@ inline bool eventually(const std::function<bool()>& holds) {
   return true;
 }
 
-/// Waits until a descriptor can be read, for at most some ms.
+/// Waits until a descriptor can be read, for at most `milliseconds`.
 inline bool readable(int number, int milliseconds) {
   pollfd descriptor{number, POLLIN, 0};
   return ::poll(&descriptor, 1, milliseconds) > 0;
 }
 
-/// A folder of its own, which goes with the object.
+/// New folder, which is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -99,7 +99,7 @@ inline std::pair<detail::FileDescriptor, std::uint16_t> listen_tcp(std::uint16_t
   return {std::move(socket), ntohs(address.sin_port)};
 }
 
-/// Takes a connection that comes within 20 s.
+/// Accepts a connection that comes within 20 s.
 inline detail::FileDescriptor accept_one(const detail::FileDescriptor& listener) {
   if (!readable(listener.number(), 20'000)) {
     throw std::runtime_error("nobody connects");
@@ -107,7 +107,7 @@ inline detail::FileDescriptor accept_one(const detail::FileDescriptor& listener)
   return detail::FileDescriptor(::accept(listener.number(), nullptr, nullptr));
 }
 
-/// Sends all; a peer that is gone is no error.
+/// Sends all bytes; a peer that is gone is no error.
 inline void send_bytes(const detail::FileDescriptor& socket, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::send(socket.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);

@@ -26,7 +26,7 @@ inline std::string button(std::int32_t number, bool pressed) {
 
 inline std::string device_event(bool removed) { return record({3, removed ? 1 : 0, 7}); }
 
-/// The answer to the request for a protocol.
+/// Returns the answer to the request for a protocol.
 inline std::string agreed_protocol() {
   const std::uint32_t word = 0x7faa5501;
   std::string bytes(sizeof word, '\0');

@@ -13,7 +13,7 @@
 
 namespace firstcontact {
 
-/// A box whose centre is at a place of its frame.
+/// Makes a box whose centre is at a given point of its frame.
 inline Shape box_off(const Eigen::Vector3d& size, const Eigen::Vector3d& centre) {
   Mesh mesh = make_box(size).mesh();
   for (Eigen::Vector3d& vertex : mesh.vertices) {
@@ -24,8 +24,9 @@ inline Shape box_off(const Eigen::Vector3d& size, const Eigen::Vector3d& centre)
 
 inline constexpr double kGripStiffness = 2.0;  // [N m/rad]
 
-/// A palm with two fingers of 6 cm below it that turn about y, 8 cm from each other. At 0 they hang
-/// down; joint 0 is that at x > 0. Both close by the same sign.
+/// Makes a palm with two fingers of 6 cm below it that turn about y, 8 cm from each other.
+///
+/// At 0 they hang down; joint 0 is the one at x > 0. Both close with the same sign.
 inline HapticTool gripper(double friction = 0.0, double z = 0.0) {
   HapticTool tool{.name = "hand",
                   .shape = make_box({0.1, 0.02, 0.02}),
@@ -50,7 +51,7 @@ inline HapticTool gripper(double friction = 0.0, double z = 0.0) {
 inline constexpr double kJawStiffness = 1000.0;  // [N/m]
 inline constexpr double kJawWay = 0.034;         // [m]
 
-/// The same with jaws that slide towards each other, by 34 mm each.
+/// Makes the same palm with jaws that slide towards each other, by 34 mm each.
 inline HapticTool jaws(double friction = 0.0) {
   HapticTool tool = gripper(friction);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -64,7 +65,7 @@ inline HapticTool jaws(double friction = 0.0) {
   return tool;
 }
 
-/// One grip that turns both fingers from 0 to 0.9 rad, or slides both jaws.
+/// Makes one grip that turns both fingers from 0 to 0.9 rad, or slides both jaws.
 inline DeviceMapping one_grip(double closed = 0.9) {
   DeviceMapping mapping;
   mapping.grips.push_back({.joints = {{.joint = 0, .open = 0.0, .closed = closed},

@@ -29,7 +29,7 @@ inline HapticTool tool_at(std::string name, Shape shape, const Eigen::Vector3d& 
           .friction = friction};
 }
 
-/// A cube of 4 cm above a floor whose top is at z = 0.
+/// Makes a cube of 4 cm above a floor whose top is at z = 0.
 inline HapticScene cube_on_floor(double friction = 0.0, double height = 0.03) {
   HapticScene scene;
   scene.tools.push_back(
@@ -39,8 +39,9 @@ inline HapticScene cube_on_floor(double friction = 0.0, double height = 0.03) {
   return scene;
 }
 
-/// A square peg of 2 cm, 4 cm above the mouth of a hole that is wider by twice the clearance; its
-/// walls are 6 cm high, z = -0.06 to 0, on a floor.
+/// Makes a square peg of 2 cm, 4 cm above the mouth of a hole.
+///
+/// The hole is wider by twice the clearance. Its walls are 6 cm high, z = -0.06 to 0, on a floor.
 inline HapticScene peg_over_hole(double clearance, double friction = 0.0) {
   HapticScene scene;
   scene.tools.push_back(tool_at("peg", make_box({0.02, 0.02, 0.05}), {0.0, 0.0, 0.04}, friction));
@@ -62,7 +63,7 @@ inline HapticScene peg_over_hole(double clearance, double friction = 0.0) {
   return scene;
 }
 
-/// A cube on a plate that rises to a ceiling in half a second: there is room for the cube only.
+/// Makes a cube on a plate that rises to a ceiling in half a second; only the cube has room there.
 inline HapticScene cube_in_a_press() {
   HapticScene scene;
   scene.tools.push_back(tool_at("cube", make_box({0.03, 0.03, 0.03}), {0.003, 0.0, 0.045}));

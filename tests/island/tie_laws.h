@@ -1,5 +1,5 @@
 /// @file
-/// Laws of bodies on ties: what they share of settings, exact motions and orders.
+/// Settings, exact motions and convergence orders that tests of bodies on ties share.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace firstcontact::test {
 
-/// Keys of a simulation.
+/// Writes the keys of a simulation.
 inline std::string tie_settings(double step, const std::string& ties, bool has_gravity = true) {
   return R"("duration": 100, "step": )" + number_text(step) + R"(, "contact_distance": 1e-4)" +
          (has_gravity ? "" : R"(, "gravity": [0, 0, 0])") + R"(, "ties": [)" + ties + "]";
@@ -28,7 +28,7 @@ inline std::size_t steps_until(double time, double h) {
   return static_cast<std::size_t>(std::lround(time / h));
 }
 
-/// The state of y' = f(y) after a time, by Runge and Kutta's rule in many steps.
+/// Integrates y' = f(y) over a time, by the Runge-Kutta method in many steps.
 template <class Vector, class Rate>
 Vector followed(Vector y, double time, const Rate& f) {
   constexpr int kSteps = 20000;
@@ -43,7 +43,7 @@ Vector followed(Vector y, double time, const Rate& f) {
   return y;
 }
 
-/// The errors in steps of h, h / 2, h / 4 and h / 8 fall by at least this factor each.
+/// Expects that the errors in steps of h, h / 2, h / 4 and h / 8 fall by at least this factor each.
 inline void expect_order(double h, const std::function<double(double)>& error_with,
                          double factor = 3.5) {
   double before = 0.0;

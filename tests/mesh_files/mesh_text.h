@@ -13,7 +13,7 @@
 
 namespace firstcontact::test {
 
-/// Enough digits to come back to the last bit.
+/// Writes a number with so many digits that reading gives the same double.
 inline std::string digits(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -46,7 +46,7 @@ inline std::string to_obj(const Mesh& mesh) {
   return text;
 }
 
-/// What follows the header of OFF and of ASCII PLY.
+/// Writes the part after the header of OFF and of ASCII PLY.
 inline std::string vertices_and_faces(const Mesh& mesh) {
   std::string text;
   for (const auto& p : mesh.vertices) {

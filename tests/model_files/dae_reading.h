@@ -35,7 +35,7 @@ inline DaeReading read_dae(const DaeWriter& writer, const ReadingOptions& option
   return read_dae(writer.text(), options);
 }
 
-/// The one line of the error; empty if the document is read.
+/// Returns the one line of the error; empty if the document is read.
 inline std::string error_of_dae(const std::string& text, const ReadingOptions& options = {}) {
   try {
     EXPECT_FALSE(read_dae(text, options).mesh.triangles.empty());
@@ -48,7 +48,7 @@ inline std::string error_of_dae(const std::string& text, const ReadingOptions& o
   }
 }
 
-/// Refused by one line that says this.
+/// Tests whether the document is refused by one line that contains `says`.
 inline testing::AssertionResult is_refused(const DaeWriter& writer, const std::string& says) {
   const std::string line = error_of_dae(writer.text());
   if (line.empty()) {
@@ -60,7 +60,7 @@ inline testing::AssertionResult is_refused(const DaeWriter& writer, const std::s
 
 using Point = std::array<double, 3>;
 
-/// Six times the signed volume, and twice the area.
+/// Computes six times the signed volume, and twice the area.
 inline std::array<double, 2> volume_and_area(const Mesh& mesh) {
   std::array<double, 2> sums{};
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -73,7 +73,7 @@ inline std::array<double, 2> volume_and_area(const Mesh& mesh) {
   return sums;
 }
 
-/// The reference body with its vertices moved by a map.
+/// Returns the reference body with its vertices moved by a map.
 inline Mesh moved_body(double unit, const std::function<Point(Point)>& map) {
   Mesh mesh;
   const ReferenceBody body = reference_body(unit);
@@ -88,8 +88,10 @@ inline Mesh moved_body(double unit, const std::function<Point(Point)>& map) {
   return mesh;
 }
 
-/// Each vertex of the one is within `tolerance` of a vertex of the other; the same number of
-/// triangles, the same volume and area. How faces are cut into triangles is free.
+/// Expects that each vertex of one body is within `tolerance` of a vertex of the other.
+///
+/// The number of triangles, the volume and the area must agree. Faces may be cut into triangles in
+/// any way.
 inline void expect_same_body(const Mesh& mesh, const Mesh& expected, double tolerance = 0.0) {
   ASSERT_EQ(mesh.triangles.size(), expected.triangles.size());
   ASSERT_EQ(mesh.vertices.size(), expected.vertices.size());

@@ -1,6 +1,6 @@
 /// @file
-/// The body that tests of glTF write in many ways: 12 triangles, closed, not symmetric, with faces
-/// that are not convex.
+/// Body that tests of glTF write in many ways: 12 triangles, closed, not symmetric, with faces that
+/// are not convex.
 
 #pragma once
 
@@ -26,11 +26,11 @@ inline constexpr std::array<std::array<int, 3>, 8> kGridCorners = {{{-100, -80, 
                                                                     {3, -7, 90},
                                                                     {71, 67, 90}}};
 
-/// Four corners a face, seen from outside against the clock: triangles (0, 1, 2) and (0, 2, 3).
+/// Four corners a face, counter-clockwise from outside: triangles (0, 1, 2) and (0, 2, 3).
 inline constexpr std::array<std::array<std::uint8_t, 4>, 6> kQuads = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-/// The corners of triangles, three after three.
+/// Corners of triangles, three for each.
 using Corners = std::vector<Eigen::Vector3d>;
 
 inline std::vector<std::uint8_t> indices_of_triangles() {
@@ -60,7 +60,7 @@ inline std::vector<float> float_positions() {
   return positions;
 }
 
-/// Numbers of another type on the same grid, shifted where they have no sign.
+/// Converts the positions to another type on the same grid, shifted where it has no sign.
 template <class T>
 std::vector<T> grid_positions() {
   std::vector<T> positions;
@@ -73,7 +73,7 @@ std::vector<T> grid_positions() {
   return positions;
 }
 
-/// Rows of three as points.
+/// Converts rows of three to points.
 template <class T>
 std::vector<Eigen::Vector3d> points_of(const std::vector<T>& numbers, double divisor = 1.0) {
   std::vector<Eigen::Vector3d> points;
@@ -85,7 +85,7 @@ std::vector<Eigen::Vector3d> points_of(const std::vector<T>& numbers, double div
   return points;
 }
 
-/// A primitive's JSON.
+/// Writes the JSON of a primitive.
 inline std::string primitive_text(std::size_t positions, std::size_t indices,
                                   const std::string& attributes = "",
                                   const std::string& more = "") {
@@ -98,8 +98,9 @@ inline std::string mesh_text(const std::vector<std::string>& primitives,
   return R"({"primitives":)" + GltfWriter::list(primitives) + more + "}";
 }
 
-/// The body in floats as mesh 0, with positions as accessor 0 and indices as accessor 1, placed by
-/// node 0.
+/// Writes the body in floats as mesh 0, placed by node 0.
+///
+/// Accessor 0 has the positions, accessor 1 the indices.
 inline GltfWriter plain_gltf() {
   GltfWriter gltf;
   gltf.add_numbers(float_positions(), "VEC3");

@@ -18,7 +18,7 @@
 
 namespace firstcontact::test {
 
-/// Has a folder of its own; ctest runs each test in a process of its own.
+/// Fixture with its own folder; ctest runs each test in its own process.
 class GltfTest : public testing::Test {
  protected:
   GltfTest() { std::filesystem::create_directories(folder_); }
@@ -38,7 +38,7 @@ class GltfTest : public testing::Test {
     return read("body.glb", gltf.glb()).mesh;
   }
 
-  /// The one line of the error; empty if the file is read.
+  /// Returns the one line of the error; empty if the file is read.
   [[nodiscard]] std::string error_of(const std::string& name, const std::string& bytes) const {
     try {
       EXPECT_FALSE(read(name, bytes).mesh.triangles.empty());
@@ -53,7 +53,7 @@ class GltfTest : public testing::Test {
     }
   }
 
-  /// Whether the file is refused by a line that says this.
+  /// Tests whether the file is refused by a line that contains this text.
   [[nodiscard]] testing::AssertionResult is_refused(const GltfWriter& gltf,
                                                     const std::string& says) const {
     return is_refused("body.glb", gltf.glb(), says);
@@ -75,7 +75,7 @@ class GltfTest : public testing::Test {
       std::filesystem::path(testing::TempDir()) / ("gltf_" + std::to_string(::getpid()));
 };
 
-/// Whether the triangles have these corners to the last bit, each from any of its corners on.
+/// Tests whether the triangles have exactly these corners; each may start from any of its corners.
 inline testing::AssertionResult has_corners(const Mesh& mesh, const Corners& expected) {
   if (3 * mesh.triangles.size() != expected.size()) {
     return testing::AssertionFailure() << mesh.triangles.size() << " triangles";
@@ -98,7 +98,7 @@ inline testing::AssertionResult has_corners(const Mesh& mesh, const Corners& exp
   return testing::AssertionSuccess();
 }
 
-/// Corners through a map.
+/// Applies a map to corners.
 template <class Map>
 Corners mapped(Corners corners, Map map) {
   for (Eigen::Vector3d& corner : corners) {
@@ -107,7 +107,7 @@ Corners mapped(Corners corners, Map map) {
   return corners;
 }
 
-/// The same triangles seen from the other side.
+/// Returns the same triangles with the opposite orientation.
 inline Corners turned_over(Corners corners) {
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     std::swap(corners[i + 1], corners[i + 2]);

@@ -45,7 +45,7 @@ inline MotionInput about_axis(const Vector3<double>& point, double angle, double
   return m;
 }
 
-/// Four poses, the second twice; at rest before 0.1 and after 0.9.
+/// Makes a motion through four poses, the second twice; at rest before 0.1 and after 0.9.
 inline MotionInput tour(MotionKind kind, const Vector3<double>& origin) {
   MotionInput m;
   m.kind = kind;
@@ -98,7 +98,7 @@ inline std::vector<MotionCase> sudden_motions() {
   return cases;
 }
 
-/// The motions of generated questions, `count` of each family, and the sudden ones.
+/// Returns the motions of generated questions, `count` of each family, and the sudden ones.
 inline std::vector<MotionCase> all_motions(std::uint64_t count) {
   std::vector<MotionCase> cases = sudden_motions();
   for (int f = 0; f < kFamilyCount; ++f) {

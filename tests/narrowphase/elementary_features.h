@@ -1,5 +1,5 @@
 /// @file
-/// Puts the features of the oracle's soups to the elementary tests.
+/// Passes the features of the oracle's soups to the elementary tests.
 
 #pragma once
 
@@ -14,8 +14,9 @@
 
 namespace firstcontact::oracle {
 
-/// Two motions over the step: one elementary motion for each piece that they share, in order, each
-/// also with the bodies swapped.
+/// Elementary motions of two motions over the step: one for each common piece, in order.
+///
+/// Each stands also with the bodies swapped.
 class ElementaryPieces {
  public:
   /// @param center_A, center_B  body points that the features' coordinates start from
@@ -33,7 +34,7 @@ class ElementaryPieces {
     }
   }
 
-  /// The first answer that is not `free`; `test` asks about one piece.
+  /// Returns the first answer that is not `free`; `test` computes that of one piece.
   template <class Test>
   [[nodiscard]] ElementaryContact first(bool swapped, const Test& test) const {
     ElementaryContact answer;
@@ -60,7 +61,7 @@ inline Eigen::Vector3d corner(const MovingSoup& soup, std::size_t triangle, std:
   return {v.x - center.x, v.y - center.y, v.z - center.z};
 }
 
-/// Asks about all pairs of features of two soups without radius, and hands each answer to `use`.
+/// Tests all pairs of features of two soups without radius, and passes each answer to `use`.
 template <class Use>
 void for_each_feature_pair(const MovingSoup& A, const MovingSoup& B, const Use& use) {
   const auto center = [](const MovingSoup& soup) {

@@ -1,5 +1,5 @@
 /// @file
-/// Scenes to plan in, whose clearances are known by construction.
+/// Scenes for planning, whose clearances are known by construction.
 
 #pragma once
 
@@ -19,7 +19,7 @@ inline Motion resting_at(const Eigen::Vector3d& place) {
   return Motion::fixed({place, Eigen::Quaterniond::Identity()});
 }
 
-/// A cube of side 0.2 m on three slides, "x", "y" and "z", within 2 m of the origin.
+/// Makes a cube of side 0.2 m on three slides, "x", "y" and "z", within 2 m of the origin.
 inline RobotModel gantry() {
   RobotDescription robot{
       .name = "gantry", .links = {{"base"}, {"lx"}, {"ly"}, {"tool"}}, .joints = {}};
@@ -49,7 +49,7 @@ inline std::map<std::string, JointMotion> all_at_rest(const RobotMotion& motion)
   return held;
 }
 
-/// The gantry in a scene that has its bodies.
+/// Adds the gantry to a scene of bodies.
 inline PlanScene with_gantry(RobotScene scene) {
   const RobotMotion rest = at_rest(gantry());
   const std::vector<std::string> names = {"x", "y", "z"};
@@ -59,8 +59,9 @@ inline PlanScene with_gantry(RobotScene scene) {
           .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
 }
 
-/// A wall in the plane x = 0, 10 um thick, from -2.2 to 2.2 m, with a square window around the
-/// origin.
+/// Makes a wall in the plane x = 0, 10 um thick, from -2.2 to 2.2 m.
+///
+/// The wall has a square window around the origin.
 ///
 /// @param half  [m]  from the middle of the window to its sides; 0 for none
 inline RobotScene thin_wall(double half) {
@@ -80,7 +81,7 @@ inline RobotScene thin_wall(double half) {
   return scene;
 }
 
-/// A bar of the given sizes that moves freely among the bodies of a scene, within 1.5 m.
+/// Makes a bar of the given sizes that moves freely among the bodies of a scene, within 1.5 m.
 inline PlanScene with_bar(RobotScene scene, const Eigen::Vector3d& sizes) {
   ConfigurationSpace space = ConfigurationSpace::of_body(
       "bar", make_box(sizes), Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));

@@ -1,6 +1,7 @@
 /// @file
-/// Pairs of bodies made of boxes that come near each other, and where their boxes really are:
-/// computed from the numbers that define the motion, in extended precision, by no code of ours.
+/// Pairs of bodies made of boxes that come near each other, and the true positions of their boxes.
+/// Extended precision computes these from the numbers that define the motion, without code of the
+/// library.
 
 #pragma once
 
@@ -18,11 +19,13 @@ using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 
-/// A body of one node: four boxes, and its motion as the numbers that define it. Where it deforms,
-/// every point of a box is at one place of the box at both ends, and goes from one to the other.
+/// A body of one node: four boxes, and the numbers that define its motion.
+///
+/// Where it deforms, every point of a box is at one place of the box at both ends, and moves from
+/// one to the other.
 struct Body {
   Hierarchy hierarchy;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the body origin at t = 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // [m]  Position of the body origin at t = 0.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();
@@ -47,14 +50,15 @@ struct RealBox {
   }
 };
 
-/// The box at time t; positions relative to `origin`.
+/// Computes the box at time t; positions are relative to `origin`.
 [[nodiscard]] RealBox real_box(const Body& body, int slot, Real t, const RealVector& origin);
 
-/// The distance of a point of each, the nearest that alternating projections find: never below the
-/// distance of the boxes.
+/// Computes the distance of two points of the boxes that alternating projections bring closest.
+///
+/// It is never below the distance of the boxes.
 [[nodiscard]] Real distance_of_points(const RealBox& a, const RealBox& b);
 
-/// Two bodies of which the first boxes come near each other at t.
+/// Two bodies whose first boxes come near each other at t.
 struct MovingBoxes {
   Body A;
   Body B;
@@ -66,7 +70,7 @@ struct MovingBoxes {
     return distance_of_points(real_box(A, i, at, origin), real_box(B, j, at, origin));
   }
 
-  /// [m]  Of the first boxes together.
+  /// [m]  Computes the size of the first boxes together.
   [[nodiscard]] double size() const {
     const RealVector a = real_box(A, 0, 0.0L, RealVector::Zero()).extent;
     const RealVector b = real_box(B, 0, 0.0L, RealVector::Zero()).extent;
@@ -74,26 +78,29 @@ struct MovingBoxes {
   }
 };
 
-/// How B comes to a face of A. But for `any`, the bounds have no room but their slack.
+/// Motion of B towards a face of A; except for `any`, the bounds have no margin but their slack.
 enum class Approach {
   any,
   straight,
-  spinning,  ///< About the face's normal, so that points are fast, but not towards the face.
-  swinging,  ///< Around an axis in the face, at first along it: only the acceleration counts.
-  tilting,   ///< One of the two above a face, about its own middle: only its extent counts.
-  circling,  ///< Both together, about a far axis along the normal: fast, but not for each other.
+  spinning,  ///< Rotates about the face's normal: points are fast, but not towards the face.
+  swinging,  ///< Rotates about an axis in the face, at first along it: only the acceleration
+             ///< counts.
+  tilting,   ///< One of the two rotates above a face, about its own middle: only its extent counts.
+  circling,  ///< Both rotate about a far axis along the normal: fast, but not towards each other.
 };
 
-/// Sizes from 1e-6 m to 1e6 m, some pairs far from the origin; thick and flat boxes, needles,
-/// points.
+/// Makes bodies of sizes from 1e-6 m to 1e6 m, some pairs far from the origin.
+///
+/// Their boxes are thick, flat, needles or points.
 [[nodiscard]] MovingBoxes random_moving_boxes(Random& random, Approach approach);
 [[nodiscard]] MovingBoxes random_moving_boxes(Random& random);
 
-/// The same two bodies where one or both deform as well, by 1e-3 to 1 of their size.
+/// Makes the same two bodies where one or both deform as well, by 1e-3 to 1 of their size.
 [[nodiscard]] MovingBoxes random_deforming_boxes(Random& random);
 
-/// B swings, and drifts in its own frame so that at first it comes no nearer to A: what brings it
-/// there is that the drift turns with B (Coriolis).
+/// Makes a B that rotates, and drifts in its own frame so that at first it comes no nearer to A.
+///
+/// It comes nearer because the drift turns with B (Coriolis).
 [[nodiscard]] MovingBoxes random_drifting_boxes(Random& random);
 
 }  // namespace firstcontact::test

@@ -33,17 +33,17 @@ inline constexpr int kAllKinds = static_cast<int>(ShapeKind::ellipsoid) + 1;
 
 struct ShapeCase {
   Shape shape;
-  /// A soup whose union has the same first contacts with what is outside; not of curved bodies.
+  /// Soup whose union has the same first contacts with bodies outside; not for curved bodies.
   MovingSoup soup;
   std::vector<Support> pieces;  ///< Convex bodies whose union is the body, without the radius.
-  /// Of a solid: its corners, where it is their convex hull.
+  /// Corners of a solid that is their convex hull.
   std::vector<Vector3<double>> solid_corners;
 };
 
-/// A body of a size of about 1.
+/// Makes a body of a size of about 1.
 ShapeCase random_shape(ShapeKind kind, std::mt19937_64& rng);
 
-/// A motion of one of four kinds from about one place to another.
+/// Makes a motion of one of four kinds from about one position to another.
 MotionInput random_course(std::mt19937_64& rng, const Vector3<double>& from,
                           const Vector3<double>& to);
 

@@ -9,7 +9,7 @@
 
 namespace firstcontact::test {
 
-/// z = height(x, y) over n by n squares of [-2, 2]^2.
+/// Makes the surface z = height(x, y) over n by n squares of [-2, 2]^2.
 template <class Height>
 Mesh sheet(int n, const Height& height) {
   Mesh mesh;

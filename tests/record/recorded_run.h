@@ -1,5 +1,5 @@
 /// @file
-/// Runs made by hand: bodies of a scene that move by pieces which a test chooses.
+/// Runs made by hand: a test chooses the pieces by which bodies of a scene move.
 
 #pragma once
 
@@ -18,10 +18,10 @@
 
 namespace firstcontact::test {
 
-/// How a body moves for a while.
+/// Motion of a body for some time.
 struct Leg {
-  double lasts = 1.0;                                          ///< [s]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]  Of the centre of mass.
+  double lasts = 1.0;                                  ///< [s]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]  Velocity of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
@@ -45,13 +45,13 @@ class RecordedRun {
     }
   }
 
-  /// Begins elsewhere.
+  /// Changes the initial pose of a body.
   void place(std::size_t body, const Pose& X_WB) {
     header.scene.bodies[body].motion = FixedMotion{X_WB};
     poses_[body] = X_WB;
   }
 
-  /// A step in which the named bodies move on, each by legs that take equally long together.
+  /// Adds a step in which the named bodies move on, each by legs with the same total duration.
   RunStep& add(const std::vector<std::pair<std::size_t, std::vector<Leg>>>& moves,
                double clearance = 0.0) {
     RunStep step;

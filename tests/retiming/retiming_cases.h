@@ -28,7 +28,7 @@ inline std::vector<std::string> arm_joints(std::size_t count) {
   return names;
 }
 
-/// A path of random edges of up to `size` in each joint.
+/// Makes a path of random edges of up to `size` in each joint.
 inline WaypointPath random_path(std::mt19937& rng, std::size_t joints, std::size_t waypoints,
                                 double size) {
   std::uniform_real_distribution<double> step(-size, size);
@@ -56,8 +56,9 @@ inline std::vector<RateLimits> random_limits(std::mt19937& rng, std::size_t join
   return limits;
 }
 
-/// A controller's interpolation at a time, written from the documentation of ros2_controllers:
-/// linear, cubic or quintic through both points. Independent of the library's own.
+/// Interpolation of a controller at a time, written from the documentation of ros2_controllers.
+///
+/// It is linear, cubic or quintic through both points, and independent of the library's own.
 struct ControllerState {
   double position = 0.0;
   double velocity = 0.0;
@@ -108,7 +109,7 @@ inline ControllerState controller_state(const TimedMotion& motion, std::size_t j
   return state;
 }
 
-/// The planar arm beside a plate that stands in its way at an angle of its first joint.
+/// Makes the planar arm beside a plate that blocks an angle of its first joint.
 ///
 /// The plate is a thin box from radius 0.5 on, along the direction at `angle` [rad].
 inline RetimingScene arm_beside_plate(std::size_t bars, double angle) {
@@ -123,7 +124,7 @@ inline RetimingScene arm_beside_plate(std::size_t bars, double angle) {
   return where;
 }
 
-/// A ball of radius 0.05 that two slides move: its place is (x, y), so that paths are seen.
+/// Makes a ball of radius 0.05 that two slides move; its position (x, y) shows the path.
 inline RobotModel gantry() {
   RobotDescription robot{.name = "gantry", .links = {}, .joints = {}};
   for (const char* name : {"frame", "bridge", "ball"}) {
@@ -138,7 +139,7 @@ inline RobotModel gantry() {
   return RobotModel(robot);
 }
 
-/// The gantry with posts, balls of a radius, at places in its plane.
+/// Post of the gantry: a ball at a position in its plane.
 struct Post {
   Eigen::Vector2d place;
   double radius = 0.0;

@@ -15,27 +15,28 @@ namespace firstcontact::test {
 
 struct ChainOptions {
   int joints = 7;
-  bool turning_only = false;  ///< Revolute joints alone.
+  bool turning_only = false;  ///< Whether all joints are revolute.
 };
 
-/// A robot "base - l0 - l1 - ..." that moves, and what the oracle knows of it.
+/// A robot "base - l0 - l1 - ..." that moves, and the oracle's data about it.
 struct ChainCase {
   RobotMotion motion;
 
-  /// The oracle's joints from the world to the tip, or from the link that joint `first` leaves, for
-  /// the pieces that contain t.
+  /// Returns the oracle's joints from the world to the tip, for the pieces that contain t.
+  ///
+  /// With `first` they start at the link that joint `first` leaves.
   [[nodiscard]] std::vector<oracle::ExactJoint> exact(double t, std::size_t first = 0,
                                                       bool from_world = true) const;
 
-  std::vector<oracle::ExactJoint> joints;  ///< Joint 0 is the base; without coordinates.
-  /// Of each joint, of each coordinate, its pieces; a planar joint's angle is the last.
+  std::vector<oracle::ExactJoint> joints;  ///< Joints without coordinates; joint 0 is the base.
+  /// Pieces of each coordinate of each joint; a planar joint's angle is the last.
   std::vector<std::vector<std::vector<oracle::ExactCoordinate>>> coordinates;
   std::vector<std::vector<oracle::MotionPiece>> motions;
 };
 
 ChainCase random_chain(std::uint64_t seed, const ChainOptions& options);
 
-/// A random path of a coordinate and its exact pieces.
+/// A random path of a coordinate, with its exact pieces.
 struct CoordinateCase {
   CoordinatePath path;
   std::vector<oracle::ExactCoordinate> exact;

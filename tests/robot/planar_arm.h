@@ -26,12 +26,14 @@ inline CoordinatePath ramp(double from, double to) {
   return CoordinatePath::linear(kStep, q);
 }
 
-/// A bar of length 1 along x, from the origin on.
+/// Makes a bar of length 1 along x, from the origin on.
 inline Shape bar() {
   return Shape(Mesh{.vertices = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 1, 1}}}, kBarRadius);
 }
 
-/// base - l0 - l1 - ...: continuous joints j0, j1, ... about z; the base has no geometry.
+/// Makes the arm base - l0 - l1 - ...: continuous joints j0, j1, ... about z.
+///
+/// The base has no geometry.
 inline RobotModel planar_arm(std::size_t bars) {
   RobotDescription arm{.name = "arm", .links = {{"base", {}, {}}}, .joints = {}};
   for (std::size_t k = 0; k < bars; ++k) {
@@ -58,7 +60,7 @@ inline RobotMotion planar_motion(const std::vector<CoordinatePath>& angles,
   return {planar_arm(angles.size()), joints, base};
 }
 
-/// Where the hinges are, and the tip.
+/// Computes the positions of the hinges and of the tip.
 inline std::vector<Eigen::Vector2d> hinges(const std::vector<double>& angles) {
   std::vector<Eigen::Vector2d> points = {Eigen::Vector2d::Zero()};
   double sum = 0.0;
@@ -69,14 +71,14 @@ inline std::vector<Eigen::Vector2d> hinges(const std::vector<double>& angles) {
   return points;
 }
 
-/// From a point to the segment between two others.
+/// Computes the distance from a point to the segment between two others.
 inline double segment_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
                                const Eigen::Vector2d& b) {
   const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   return (p - a - s * (b - a)).norm();
 }
 
-/// Of two segments in the plane.
+/// Computes the distance of two segments in the plane.
 inline double segments_distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                 const Eigen::Vector2d& c, const Eigen::Vector2d& d) {
   const auto side = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q,

@@ -1,5 +1,5 @@
 /// @file
-/// Robots of random joints, links and motors, as URDF and as scenes have them.
+/// Robots of random joints, links and motors, as URDF and in scenes.
 
 #pragma once
 
@@ -15,11 +15,12 @@
 
 namespace firstcontact::test {
 
-/// Arms that leave a root along different axes, link after link, none of which touches another one
-/// while every coordinate is 0.
+/// Robot whose arms leave a root along different axes, link after link.
+///
+/// No link touches another one while every coordinate is 0.
 class RandomRobot {
  public:
-  /// No link is farther than this from the root's origin then, [m].
+  /// [m]  Greatest distance of a link from the root's origin while every coordinate is 0.
   static constexpr double kReach = 1.1;
 
   /// @param driven  whether joints have motors
@@ -43,9 +44,9 @@ class RandomRobot {
 
   [[nodiscard]] std::string urdf() const { return "<robot name=\"r\">" + parts_ + "</robot>"; }
 
-  /// A robot of a scene.
+  /// Writes the robot of a scene.
   ///
-  /// @param velocity  [m/s]  of a free base
+  /// @param velocity  [m/s]  velocity of a free base
   [[nodiscard]] std::string text(const std::string& urdf_path, const Eigen::Vector3d& at,
                                  const Eigen::Vector3d& velocity) const {
     return R"({"name": "r", "urdf": ")" + urdf_path + R"(", "base": {"position": )" + row(at) +
@@ -55,8 +56,8 @@ class RandomRobot {
   }
 
  private:
-  static constexpr double kSpacing = 0.3;  // [m]  Of the centres of links.
-  static constexpr double kSize = 0.11;    // [m]  From a link's centre, at most.
+  static constexpr double kSpacing = 0.3;  // [m]  Spacing of the centres of links.
+  static constexpr double kSize = 0.11;    // [m]  Greatest distance from a link's centre.
   static inline const std::array<Eigen::Vector3d, 3> kArms{
       Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()};
 
@@ -75,7 +76,7 @@ class RandomRobot {
     list += (list.empty() ? "" : ", ") + element;
   }
 
-  /// Heavy or light; some have the mass of their density.
+  /// Adds a link, heavy or light; the mass of some follows from their density.
   ///
   /// @param centre  [m]  in the frame of its joint
   void add_link(const std::string& name, const Eigen::Vector3d& centre) {
@@ -106,9 +107,11 @@ class RandomRobot {
                            number(random_.uniform(0.02, kSize)) + "\"/>";
   }
 
-  /// @param at  [m]  in the frame of the parent's joint
+  /// Adds a joint.
   ///
-  /// Each draw stands in a statement of its own: the order of those in a sum is the compiler's.
+  /// Each draw stands in its own statement, because the compiler chooses the order in a sum.
+  ///
+  /// @param at  [m]  in the frame of the parent's joint
   void add_joint(const std::string& name, const std::string& parent, const std::string& child,
                  const Eigen::Vector3d& at) {
     const std::string type = joint_type();

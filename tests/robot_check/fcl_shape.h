@@ -1,5 +1,5 @@
 /// @file
-/// A shape as FCL sees it: its triangles, and the radius that thickens them.
+/// Shape in FCL: its triangles, and the radius that thickens them.
 
 #pragma once
 
@@ -11,17 +11,18 @@
 
 namespace firstcontact::test {
 
-/// FCL's discrete tests of two triangle meshes. They know surfaces only: what lies inside of a
-/// solid does not collide.
+/// FCL's discrete tests of two triangle meshes.
+///
+/// They test surfaces only: a body inside a solid does not collide.
 class FclShape {
  public:
   explicit FclShape(const Shape& shape);
 
-  /// [m]  Of the thickened surfaces; not positive where they meet.
+  /// [m]  Computes the distance of the thickened surfaces; not positive where they meet.
   [[nodiscard]] double distance(const Eigen::Isometry3d& X_WA, const FclShape& B,
                                 const Eigen::Isometry3d& X_WB) const;
 
-  /// Whether the thickened surfaces meet.
+  /// Returns whether the thickened surfaces meet.
   [[nodiscard]] bool collides(const Eigen::Isometry3d& X_WA, const FclShape& B,
                               const Eigen::Isometry3d& X_WB) const;
 
@@ -32,7 +33,7 @@ class FclShape {
 
   std::shared_ptr<const Model> model_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  double reach_ = 0.0;  // Of the thickened triangles, from the centre.
+  double reach_ = 0.0;  // Greatest distance of the thickened triangles from the centre.
   double radius_ = 0.0;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Asks the library a question about links that the oracle answered, and judges its answer.
+/// Passes a question about links to the library, and checks its answer by that of the oracle.
 
 #pragma once
 
@@ -12,11 +12,13 @@
 
 namespace firstcontact::oracle {
 
-/// The library's answer to a case; with A and B swapped where asked for.
+/// Returns the library's answer to a case; with A and B swapped where `swapped`.
 FirstContactResult ask_library(const RobotCase& c, bool swapped, Workspace& workspace);
 
-/// What is wrong with an answer; empty where it keeps every promise: no missed contact, none too
-/// late, none farther than margin + tolerance, decided, as precisely as asked.
+/// Returns the error of an answer; empty where it keeps every promise.
+///
+/// The promises: no missed contact, none too late, none farther than margin + tolerance, a decided
+/// verdict, and the requested precision.
 std::string complaint(const RobotCase& c, const FirstContactResult& answer, const Truth& truth);
 
 }  // namespace firstcontact::oracle

@@ -7,8 +7,9 @@
 
 namespace firstcontact::test {
 
-/// ground -rail (planar)- cart -turn (revolute)- mast -lift (prismatic)- hook, with a joint that
-/// follows `lift` at half its way plus 0.1, and a fixed one.
+/// Makes the robot ground -rail (planar)- cart -turn (revolute)- mast -lift (prismatic)- hook.
+///
+/// One further joint follows `lift` with factor 0.5 and offset 0.1; another is fixed.
 inline RobotModel crane() {
   RobotDescription crane{.name = "crane",
                          .links = {{"ground", {}, {}},

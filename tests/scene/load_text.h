@@ -18,7 +18,7 @@ inline LoadedScene load_text(const std::string& text, const std::filesystem::pat
   return load_scene(parse_scene(text, source), cache);
 }
 
-/// A ball that moves at a constant velocity, or rests where that is zero; `more` has other keys.
+/// Writes a ball with a constant velocity, or at rest where that is zero; `more` has other keys.
 inline std::string moving_ball(const std::string& name, const std::string& radius,
                                const std::string& position, const std::string& translation,
                                const std::string& more = "") {
@@ -27,7 +27,7 @@ inline std::string moving_ball(const std::string& name, const std::string& radiu
          R"(}, "translation": )" + translation + "}" + (more.empty() ? "" : ", ") + more + "}";
 }
 
-/// The message of what `call` throws; "accepted" where it throws nothing.
+/// Returns the message of the exception of `call`; "accepted" where it throws nothing.
 template <class Error, class Call>
 std::string message_of(const Call& call) {
   try {
@@ -38,7 +38,7 @@ std::string message_of(const Call& call) {
   return "accepted";
 }
 
-/// All lines, each with its end.
+/// Joins all lines, each with its end.
 inline std::string lines_of(std::span<const std::string> lines) {
   std::string text;
   for (const std::string& line : lines) {

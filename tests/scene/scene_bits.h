@@ -1,5 +1,5 @@
 /// @file
-/// Everything a scene says, comparable bit for bit.
+/// All content of a scene, comparable bit for bit.
 
 #pragma once
 
@@ -16,8 +16,9 @@
 
 namespace firstcontact::test {
 
-/// The numbers of a scene as their bits, and its words; without the digest of its text and without
-/// what the files of robots hold.
+/// Bits of a scene's numbers, and its words.
+///
+/// The digest of its text and the content of robots' files are left out.
 class SceneBits {
  public:
   explicit SceneBits(const Scene& scene) {

@@ -1,5 +1,5 @@
 /// @file
-/// A robot with a joint that turns without end, and joints that follow it.
+/// Robot with a continuous joint, and joints that follow it.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Paths that were never planned, as files have them.
+/// Paths as in files, made without a planner.
 
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace firstcontact::test {
 
-/// Paths of a body and of one or two arms, whose numbers belong together.
+/// Fixture with consistent paths of a body and of one or two arms.
 class PlannedPathFile : public testing::Test {
  protected:
-  /// What a path of any mover has, over the scene that it has.
+  /// Makes the common parts of a path of any mover, with its scene.
   static PlannedPath over(Scene scene, std::size_t numbers) {
     PlannedPath path;
     path.scene = std::move(scene);

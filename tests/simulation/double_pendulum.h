@@ -47,8 +47,8 @@ inline constexpr double kC2 = 0.2;
 inline constexpr double kI1 = 0.02;  // [kg m^2]
 inline constexpr double kI2 = 0.01;
 
-/// @param first,second  what its joints have beside their places
-/// @param end           what the second link has beside its mass
+/// @param first,second  elements of the joints besides their origins
+/// @param end           elements of the second link besides its mass
 inline std::string double_pendulum(const std::string& first, const std::string& second,
                                    const std::string& end = "") {
   return "<link name=\"base\"/>" + massive("a", kM1, "0 0 -0.25", {kI1, kI1, kI1}) +
@@ -70,7 +70,7 @@ inline Eigen::Matrix2d pendulum_mass(double q2) {
   return M;
 }
 
-/// The forces that keep the rates of a double pendulum.
+/// Computes the forces that keep the rates of a double pendulum.
 inline Eigen::Vector2d pendulum_bias(const Swing& s) {
   const double k = kM2 * kLength * kC2 * std::sin(s.q[1]);
   const double second = kM2 * kPull * kC2 * std::sin(s.q[0] + s.q[1]);

@@ -1,5 +1,5 @@
 /// @file
-/// How far the bodies of a simulation get from where they began.
+/// Displacement of a simulation's bodies from their start.
 
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace firstcontact::test {
 
-/// [m]  At which the bodies of structures rest; they are put there.
+/// [m]  Gap at which the bodies of structures rest; they start there.
 inline constexpr double kGap = 1e-5;
 
 struct Drift {
-  double moved = 0.0;      ///< [m]  The farthest that a centre of mass got.
+  double moved = 0.0;      ///< [m]  Greatest displacement of a centre of mass.
   double turned = 0.0;     ///< [rad]
   double time_lost = 0.0;  ///< [s]
 };
 
-/// Simulates for a duration [s], and verifies.
+/// Simulates for a duration [s], and verifies the run.
 inline Drift drift(Simulator& simulator, double duration) {
   const RunHeader& header = simulator.header();
   const std::vector<RigidState> begin = simulator.states();
@@ -47,7 +47,7 @@ inline Drift drift(Simulator& simulator, double duration) {
   return drift;
 }
 
-/// What stands moves by less than a tenth of its gaps.
+/// Expects that bodies at rest move by less than a tenth of their gaps.
 inline void expect_rest(const Drift& drift) {
   EXPECT_EQ(drift.time_lost, 0.0);
   EXPECT_LE(drift.moved, 0.1 * kGap);

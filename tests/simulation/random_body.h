@@ -23,7 +23,7 @@ inline Eigen::Quaterniond random_rotation(std::mt19937& rng) {
   return Eigen::Quaterniond(n(rng), n(rng), n(rng), n(rng)).normalized();
 }
 
-/// About a metre large, with its centre of mass anywhere near.
+/// Makes a tetrahedron of about a metre, with a random centre of mass near it.
 inline detail::SimBody tetrahedron(std::mt19937& rng) {
   Mesh mesh;
   for (int k = 0; k < 4; ++k) {

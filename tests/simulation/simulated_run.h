@@ -25,7 +25,7 @@ inline Simulator simulator(const std::string& bodies, const std::string& simulat
                               cache));
 }
 
-/// A body as scenes have it; `more` begins with a comma.
+/// Writes a body of a scene; `more` begins with a comma.
 inline std::string body(const std::string& name, const std::string& shape,
                         const std::string& position, const std::string& more = "") {
   return R"({"name": ")" + name + R"(", "shape": )" + shape + R"(, "pose": {"position": )" +
@@ -37,10 +37,10 @@ inline std::string ball(const std::string& radius) {
   return R"({"sphere": {"radius": )" + radius + "}}";
 }
 
-/// Its top is at z = 0.
+/// Floor whose top is at z = 0.
 inline const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
 
-/// A number that reads back bit for bit.
+/// Writes a number that reads back bit for bit.
 inline std::string number_text(double number) {
   std::ostringstream out;
   out.precision(17);
@@ -48,7 +48,7 @@ inline std::string number_text(double number) {
   return out.str();
 }
 
-/// A row of numbers as scenes have it.
+/// Writes a row of numbers of a scene.
 inline std::string numbers(const std::vector<double>& values) {
   std::ostringstream out;
   out.precision(17);
@@ -59,7 +59,7 @@ inline std::string numbers(const std::vector<double>& values) {
   return out.str();
 }
 
-/// The settings of a scene whose bodies rest at this distance [m].
+/// Writes the settings of a scene whose bodies rest at this distance [m].
 inline std::string settings(double step, double friction, double contact_distance) {
   std::ostringstream out;
   out.precision(17);

@@ -1,5 +1,5 @@
 /// @file
-/// Tops on balls as tips, beside Lagrange's equations.
+/// Tops with balls as tips, compared with Lagrange's equations.
 
 #pragma once
 
@@ -17,13 +17,14 @@ inline constexpr double kMassOfTop = 0.3;  // [kg]
 inline constexpr double kArm = 0.1;        // [m]  From the centre of the tip to the centre of mass.
 
 struct Top {
-  std::array<double, 3> moments{5e-4, 5e-4, 6e-4};  // [kg m^2]  The last one about the axis.
+  std::array<double, 3> moments{5e-4, 5e-4, 6e-4};  // [kg m^2]  The last moment is that about the
+                                                    // axis.
   double spin = 60.0;                               // [rad/s]
   double lean = 0.3;                                // [rad]  About y.
   double friction = 0.0;
 };
 
-/// A body that is the ball of 2 cm of a top on a floor, with its centre of mass above it.
+/// Writes the body of a top on a floor: a ball of 2 cm with the centre of mass above it.
 inline std::string top_body(const Top& top, double contact_distance) {
   return R"({"name": "top", "shape": {"sphere": {"radius": 0.02}}, "pose": {"position": )" +
          numbers({0.0, 0.0, 0.02 + contact_distance}) + R"(, "rpy": )" +

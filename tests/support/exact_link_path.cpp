@@ -49,7 +49,7 @@ Polynomial hermite(const std::vector<Wide>& begin, const std::vector<Wide>& end,
   for (std::size_t i = 0; i < n; ++i) {
     row.push_back(is_begin(i) ? begin[0] : end[0]);
   }
-  std::vector<Wide> first = {row[0]};  // Of each order, the divided difference over nodes 0 to k.
+  std::vector<Wide> first = {row[0]};  // For each order, the divided difference over nodes 0 to k.
   double factorial = 1.0;
   for (std::size_t k = 1; k < n; ++k) {
     factorial *= static_cast<double>(k);

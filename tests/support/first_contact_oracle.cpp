@@ -16,7 +16,7 @@ namespace {
 constexpr double kRoundoff = 0x1p-53;
 /// Covers the sums and products of `plain` positions and their projection (fewer than 32).
 constexpr double kPlainError = 64.0 * kRoundoff;
-constexpr double kContactSlack = 1e-20;  // Of the size, as the truth allows.
+constexpr double kContactSlack = 1e-20;  // [-]  Relative to the size, as the truth allows.
 
 double length(const Vector3<double>& v) { return std::sqrt(dot(v, v)); }
 
@@ -128,7 +128,8 @@ class Body {
     return drifts.empty() ? offsets[vertex] : offsets[vertex] + at.t_plain * plain_drifts[vertex];
   }
 
-  /// Of a vertex of a soup that deforms, as the center sees it; such a body does not turn.
+  /// Returns the drift of a deforming soup's vertex relative to the center; such a body does not
+  /// turn.
   [[nodiscard]] Vector3<Wide> exact_drift(std::size_t vertex) const {
     return drifts.empty() ? Vector3<Wide>{} : drifts[vertex];
   }
@@ -143,7 +144,8 @@ class Body {
   std::vector<Vector3<double>> offsets;  // From the center, rounded.
   std::vector<Vector3<Wide>> exact_offsets;
   std::vector<MotionPiece> pieces;
-  std::vector<std::vector<double>> levers;  // Of piece and vertex: distance from the axis, upper.
+  std::vector<std::vector<double>> levers;  // Upper bounds of the distance from the axis, by piece
+                                            // and vertex.
 
  private:
   /// The center goes from the middle of the vertices to that of their places at t = 1.
@@ -191,7 +193,7 @@ struct Pair {
 struct Instant {
   std::size_t piece_A, piece_B;
   BodyState A, B;
-  Vector3<Wide> offset, approach;  // Of B's center from A's, and its rate.
+  Vector3<Wide> offset, approach;  // Position of B's center relative to A's, and its rate.
   Vector3<double> offset_plain, approach_plain;
 };
 
@@ -287,7 +289,7 @@ class FirstContactOracle::Search {
     return k;
   }
 
-  /// @param t_begin  of the smooth piece that t belongs to
+  /// @param t_begin  start of the smooth piece that t belongs to
   Instant instant(const Wide& t, double t_begin) const {
     Instant at;
     at.piece_A = piece_at(A_, t_begin);
@@ -514,7 +516,7 @@ class FirstContactOracle::Search {
       distances.push_back(plain_distance(at, pair));
       least = std::min(least, distances.back());
     }
-    // Closest points of bad triangles may be off by far more than the plain error.
+    // Closest points of bad triangles may have far larger errors than the plain error.
     const double slack = 1e-7 * size_ + 1e-3 * least;
     std::vector<Pair> near;
     for (std::size_t i = 0; i < all_.size(); ++i) {

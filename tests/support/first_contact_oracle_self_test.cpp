@@ -11,7 +11,7 @@
 namespace firstcontact::oracle {
 namespace {
 
-constexpr double kBracket = 1e-15;  // What the oracle reaches where bodies meet at some speed.
+constexpr double kBracket = 1e-15;  // [-]  Precision of the oracle where bodies meet at some speed.
 
 MovingSoup triangle(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& c) {
   MovingSoup soup;

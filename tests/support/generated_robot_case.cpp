@@ -142,7 +142,7 @@ class Generator {
     return q;
   }
 
-  /// Of a base or of a joint with a pose; one at the origin turns only.
+  /// Makes the motion of a base or of a joint with a pose; one at the origin turns only.
   MotionInput motion(bool at_origin, double most_angle) {
     MotionInput m;
     const double size = at_origin ? 0.0 : scale_;

@@ -170,7 +170,8 @@ NarrowPassage trap(double s) {
 
 /// The section of the slide, wider all around by a gap.
 std::array<std::array<double, 2>, 4> dovetail_section(double gap) {
-  const Vector3d side = Vector3d(0.0, kWide, 0.5 * kWide).normalized();  // Of the wedge's flank.
+  // Normal of the wedge's flank.
+  const Vector3d side = Vector3d(0.0, kWide, 0.5 * kWide).normalized();
   const double out = gap / side.y();
   const double slope = side.z() / side.y();
   const auto half = [&](double z) { return kWide - slope * z + out; };

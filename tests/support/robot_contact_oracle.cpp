@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Covers, per size, the rounding of places to doubles, of projections on a direction, and of the
 /// distance of closest points (fewer than 60 operations).
 constexpr double kError = 128.0 * 0x1p-53;
-constexpr double kResolution = 0x1p-50;  // [-]  Of the time of a contact.
+constexpr double kResolution = 0x1p-50;  // [-]  Resolution of the time of a contact.
 
 double length(const Vector3<double>& v) { return std::sqrt(dot(v, v)); }
 

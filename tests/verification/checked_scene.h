@@ -1,5 +1,5 @@
 /// @file
-/// A scene that is checked, and the result that is to be proven again.
+/// A checked scene, and its result, which is to be proven again.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace firstcontact::test {
 
-/// The result of a scene, as its file has it.
+/// Returns the result of a scene as in its file.
 inline std::string checked(const std::string& scene, const CheckOptions& options = {},
                            const std::filesystem::path& source = "s") {
   ShapeCache cache;
@@ -27,7 +27,7 @@ inline std::string checked(const std::string& scene, const CheckOptions& options
   return write_result(loaded, result, writing);
 }
 
-/// What the result of a scene claims.
+/// Returns the claims in the result of a scene.
 inline ResultClaims claims_of(const std::string& scene, const CheckOptions& options = {},
                               const std::filesystem::path& source = "s") {
   return read_claims(checked(scene, options, source), "result.json");
