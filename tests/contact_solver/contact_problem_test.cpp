@@ -344,8 +344,8 @@ TEST(ProjectOnContacts, WrongGuessesSpoilNoOthers) {
   EXPECT_LE(project_on_contacts(problem, kFew).residual, 0.1 * from_nothing);
 }
 
-// Where things move sweeps end as soon as they hardly help; near the tolerance they go on, as what
-// rests would creep.
+// While bodies move, sweeps end as soon as they improve little. Near the tolerance the sweeps
+// continue, because bodies at rest would creep.
 TEST(ProjectOnContacts, SweepsEndEarlyButNearTheTolerance) {
   std::mt19937 rng(7);
   std::normal_distribution<double> normal;

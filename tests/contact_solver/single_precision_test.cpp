@@ -55,7 +55,7 @@ ContactProblem sliders(double degrees, double factor) {
   return problem;
 }
 
-// Responses across the locked axes are next to nothing: their squares vanish.
+// Responses across the locked axes are so small that their squares are 0 in single precision.
 TEST(SinglePrecision, LeavesLockedAxesToDoubles) {
   for (const double degrees : {90.0, 60.0, 20.0}) {
     for (const double factor : {1.0, 1e7, 1e9}) {

@@ -415,7 +415,8 @@ Gap gap_at_start(const LoadedScene& loaded) {
   return gap;
 }
 
-// Of `spike-in-crack`, the closest, it is 0.0707 mm. A wrong pose or scale would make some touch.
+// The closest pair, in `spike-in-crack`, is 0.0707 mm apart. A wrong pose or scale would make some
+// touch.
 TEST(RigidIpcFixtures, BeginWithBodiesApart) {
   if (fixtures().empty()) {
     GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR";

@@ -1,4 +1,4 @@
-// What the hand feels, and what it never does.
+// Forces of the force loop: their sizes, ramps and limits.
 
 #include <array>
 #include <cmath>

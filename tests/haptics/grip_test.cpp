@@ -60,7 +60,7 @@ double gap_of(const Shape& A, const Pose& X_WA, const Shape& B, const Pose& X_WB
   return distance({A, Motion::fixed(X_WA)}, {B, Motion::fixed(X_WB)}, 0.0, workspace).distance;
 }
 
-/// A session of one tool with grips, and a device that is led by hand.
+/// A session of one tool with grips, and a device that the test moves.
 class GripSession {
  public:
   explicit GripSession(HapticScene scene, DeviceMapping mapping = one_grip())

@@ -1,4 +1,4 @@
-// What of a plan is proven, and what a wedged tool may still do.
+// Proven part of a plan, and the motions that a wedged tool may still make.
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a plan brings into contact, whether another was asked before it or not.
+// A plan gives the same contacts, whether another plan was searched before it or not.
 
 #include <algorithm>
 #include <random>

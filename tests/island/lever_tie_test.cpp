@@ -44,8 +44,8 @@ double greatest_force(const std::vector<RunStep>& steps, std::size_t tie) {
   return most;
 }
 
-// Its arm is a hundred times its radius of gyration and more: impulses turn the cube, and hardly
-// move it.
+// The arm is at least a hundred times the cube's radius of gyration: impulses turn the cube, and
+// move it little.
 TEST(LeverTie, ASmallCubeSwingsOnALongArm) {
   for (const std::string size : {"0.1", "0.05", "0.02", "0.01"}) {
     Simulator s = simulator(
@@ -184,7 +184,7 @@ TEST(LeverTie, ABodyOnAHingeKeepsItsEnergy) {
             2e-4);
 }
 
-// Each further hinge of a door says what the first one does.
+// Each further hinge of a door gives the same constraint as the first one.
 TEST(LeverTie, ADoorMayHaveMoreHingesThanItNeeds) {
   const auto hinge = [](double z) {
     return R"({"type": "hinge", "bodies": [null, "door"], "points": [)" + test::numbers({0, 0, z}) +

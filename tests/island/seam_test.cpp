@@ -1,4 +1,5 @@
-// What slides or rolls over the seam of flush bodies does not notice it; a step stops it.
+// A body slides or rolls over the seam of flush bodies without a change of its motion; a step stops
+// it.
 
 #include <cmath>
 #include <string>

@@ -115,8 +115,8 @@ TEST(Tie, StiffSpringIsStable) {
   }
 }
 
-// However strong: it takes energy alone, and creeps back. Bodies were led by the mean of their
-// velocities, so 25 J became 102 J in the first step.
+// A damper of any strength only dissipates energy, and the body creeps back. Bodies were once moved
+// by the mean of their velocities, so 25 J became 102 J in the first step.
 TEST(Tie, StrongDampersTakeEnergyAlone) {
   for (const double c : {1e1, 1e3, 1e4, 1e6, 1e9}) {
     const std::string law = R"("stiffness": 5e5, "damping": )" + number_text(c) + "}";

@@ -352,11 +352,13 @@ struct MeanSteps {
   double contact = 0.0;
 };
 
-/// Asks about random pairs, half of them aimed. Where the answer is contact, the volume of its four
-/// corners has opposite signs at the answer's ends: a root lies between.
+/// Tests random pairs, half of them aimed.
 ///
-/// @param volume_at  of a case, given A and B in 256 bits and a time; it also expects that the
-///                   features meet there, and not only the plane or the lines that they lie on
+/// Where the answer is contact, the volume of its four corners has opposite signs at the answer's
+/// ends: a root lies between.
+///
+/// @param volume_at  volume of a case, given A and B in 256 bits and a time; it also expects that
+///                   the features meet there, and not only the plane or the lines of these features
 template <class Ask, class VolumeAt>
 void expect_brackets(std::uint64_t seed, const MeanSteps& allowed, const Ask& ask,
                      const VolumeAt& volume_at) {

@@ -1,5 +1,4 @@
-// Links have the colours that their file gives them, and whatever else it says costs no more than a
-// colour.
+// Links have the colours of their file; any error in the file costs at most a colour.
 
 #include <firstcontact/page/detail/urdf_colors.h>
 

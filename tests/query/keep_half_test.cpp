@@ -144,7 +144,7 @@ Answer ask(const Shape& floor, const Shape& cube, const Path& path, const Pose& 
   return answer;
 }
 
-/// Asks for all floors, cubes and roles, at the origin and turned and far from it.
+/// Tests all floors, cubes and roles, at the origin and turned and far from it.
 void for_each_cut(const Path& path, const std::function<void(const Answer&)>& check,
                   double margin = kMargin) {
   const Pose far{.position = {1234.5, -9876.5, 432.1},

@@ -1,4 +1,4 @@
-// Where a surface bulges: what is told from the neighbours of its edges and vertices.
+// Places where a surface bulges, as the neighbours of its edges and vertices show them.
 
 #include <algorithm>
 #include <cmath>

@@ -555,8 +555,8 @@ TEST(CheckRobots, FindsEveryIntervalOfContact) {
   EXPECT_EQ(result.t, pair.intervals[0].enter);
 }
 
-/// Of random arms: samples outside of the intervals of their pair are free, and the first entry is
-/// the pair's t, nearly that of the first contact alone.
+/// Samples of random arms outside the intervals of their pair are free. The first entry is the
+/// pair's t, nearly that of the first contact alone.
 TEST(CheckRobots, OutsideOfIntervalsAllIsFree) {
   RobotCheckOptions options;
   options.all_contacts_in_time = true;

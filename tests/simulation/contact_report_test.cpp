@@ -52,8 +52,10 @@ const std::string kPaddle = R"(, {"name": "paddle", "shape": {"box": {"size": [1
     "motion": {"type": "screw", "from": {"position": [0, 0, 0.06]}, "axis_direction": [0, 0, 1],
                "angle": 6}})";
 
-/// [-]  Of weight times step: the greatest part of a free body's change of momentum that neither
-/// gravity nor what the steps report accounts for.
+/// [-]  Computes the greatest unexplained change of a free body's momentum.
+///
+/// Neither gravity nor the impulses that the steps report account for it. The unit is weight times
+/// step.
 double greatest_gap(const std::vector<RunStep>& steps, std::size_t first, std::size_t end) {
   std::map<std::size_t, Vector3d> before;
   double greatest = 0.0;

@@ -557,7 +557,8 @@ TEST_F(SimulateRobots, TakesStatesFromOutside) {
     }
     return "";
   };
-  // Of the base and of the ball joint; too small and too long for the squares of doubles.
+  // Quaternions of the base and of the ball joint; too small and too long for the squares of
+  // doubles.
   for (const Eigen::Index at : {3, 7}) {
     for (const double size : {0.0, 1e-200, 1e200}) {
       MechanismState wrong = state;

@@ -61,7 +61,7 @@ TEST(SpinningContact, ATopDoesNotFeelHowItsFloorIsCut) {
   }
 }
 
-// Of no symmetry, though it does not lift off: the energy and the angular momentum about z are
+// The top has no symmetry, but does not lift off: its energy and its angular momentum about z are
 // constant.
 TEST(SpinningContact, AnUnevenTopKeepsEnergyAndMomentum) {
   const Top top{.moments = {5e-4, 5.3e-4, 7e-4}, .spin = 50.0};

@@ -1,4 +1,4 @@
-// Bodies that a plane tells to stay apart do so.
+// Bodies that a plane proves to be apart are apart.
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,7 @@ struct StoredTruth {
 std::filesystem::path truth_path(const std::filesystem::path& data, Family family);
 std::filesystem::path truth_path(const std::filesystem::path& data, RobotFamily family);
 
-/// Reads the answers to cases 0, 1, 2, ... of the file; none where there is no file.
+/// Reads the answers to the cases 0, 1, 2, ... in a file; none where the file does not exist.
 std::vector<StoredTruth> read_truth(const std::filesystem::path& path);
 
 /// Appends answers to the file.
