@@ -35,7 +35,7 @@ struct Asked {
 
 /// Collects the close features of a pair at t.
 ///
-/// @param motion  of the centres, entered at t
+/// @param motion  motion of the centres, entered at t
 void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, const Asked& asked,
              Workspace& workspace, std::vector<Contact>& contacts) {
   const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);

@@ -26,7 +26,8 @@ class TurningGap {
     const double turning = n_rate.norm() * kUp;
     const double turned = turning * enough;
     const double acceleration = A_.acceleration(n, turned) + B_.acceleration(n, turned);
-    const double growth = std::max(0.0, n.dot(n_rate)) + kGapRounding * turning;  // of |n(tau)|
+    const double growth =
+        std::max(0.0, n.dot(n_rate)) + kGapRounding * turning;  // growth of |n(tau)|
     const double slip = A_.slip + B_.slip;
     double tau = enough;
     for (std::size_t i = 0; i < A_.count && tau > 0.0; ++i) {

@@ -51,7 +51,7 @@ struct PolygonCut {
 ///
 /// The test is quick, and false where rounding leaves the answer open.
 ///
-/// @param normal  of newell_normal()
+/// @param normal  the result of newell_normal()
 [[nodiscard]] bool is_plainly_convex(std::span<const Eigen::Vector3d> vertices,
                                      std::span<const std::uint32_t> corners,
                                      const Eigen::Vector3d& normal);

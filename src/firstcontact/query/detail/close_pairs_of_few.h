@@ -17,8 +17,8 @@ namespace firstcontact::detail {
 /// Boxes separate few pairs of so few triangles. So each feature is placed once, and the edges of
 /// one body meet all those of the other on vector units. So do corners and faces.
 ///
-/// @param frame  of meshes that are_few()
-/// @param state  at the instant
+/// @param frame  frame of two meshes that are_few()
+/// @param state  relative state at the instant
 void find_close_of_few(const ContactFrame& frame, const RelativeState& state, double band,
                        WorkspaceData& workspace);
 

@@ -10,7 +10,7 @@ namespace firstcontact::detail {
 
 /// Searches [t_begin, t_end] as search_piece() does, without boxes.
 ///
-/// @param pair  of two convex sets
+/// @param pair  two convex sets
 PieceResult search_convex_pair(const MovingPair& pair, double t_begin, double t_end,
                                const SearchLimits& limits, WorkCount& work);
 

@@ -26,7 +26,7 @@ void close_features_by_front(const PlacedShape& A, const PlacedShape& B, double 
 /// Finds the first contact as first_contact() does, in the order of A and B, beginning at their
 /// front.
 ///
-/// @param front  of A and B in this order, not empty
+/// @param front  front of A and B in this order, not empty
 void first_contact_by_front(const BoxFront& front, const MovingShape& A, const MovingShape& B,
                             Workspace& workspace, const FirstContactOptions& options,
                             FirstContactResult& result);

@@ -22,7 +22,7 @@ struct RobotName {
 
 /// Splits a name: that of a joint or link where there is one robot, else ROBOT/NAME.
 ///
-/// @param robots  of the scene; at least one
+/// @param robots  indices of the scene's robots; at least one
 /// @throws std::invalid_argument  names a text that begins with none of the robots' names, or with
 ///         two
 [[nodiscard]] RobotName split_robot_name(const Scene& scene, std::span<const std::size_t> robots,

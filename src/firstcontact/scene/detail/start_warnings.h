@@ -14,7 +14,7 @@ namespace firstcontact::detail {
 ///
 /// Only the triangles of such a mesh can touch.
 ///
-/// @param cache  of the scene's shapes; remembers which of them are closed
+/// @param cache  cache of the scene's shapes; remembers which of them are closed
 void warn_of_begins_inside(LoadedScene& loaded, ShapeCache& cache);
 
 }  // namespace firstcontact::detail

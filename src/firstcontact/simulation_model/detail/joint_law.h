@@ -71,7 +71,7 @@ struct PositionRule {
 /// Undamped springs have 1/2, and keep their energy. Dampers have fitted_weight(). Springs that
 /// swing by more than one radian of their phase in a span are damped, as steps cannot follow them.
 ///
-/// @param inverse_mass  of the mechanism
+/// @param inverse_mass  inverse mass matrix of the mechanism
 /// @param span          [s]
 [[nodiscard]] Eigen::VectorXd position_weights(const std::vector<JointLaw>& laws,
                                                const Eigen::MatrixXd& inverse_mass, double span);

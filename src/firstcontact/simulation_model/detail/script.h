@@ -49,7 +49,7 @@ class Script {
   /// Lets moving scripted bodies wait in the rest of a step, all links of a robot together.
   ///
   /// @param bodies  in any order
-  /// @param moves   of the part
+  /// @param moves   moves of the part
   /// @returns whether any of them moved
   bool wait(const std::vector<std::size_t>& bodies, const std::vector<Move>& moves,
             std::vector<bool>& waits) const;

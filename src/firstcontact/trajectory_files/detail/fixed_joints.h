@@ -26,7 +26,7 @@ namespace firstcontact::detail {
 ///
 /// It is empty where there are none.
 ///
-/// @param names  of the joints, each once or more
+/// @param names  names of the joints, each once or more
 [[nodiscard]] std::string fixed_joints_warning(std::vector<std::string> names);
 
 }  // namespace firstcontact::detail

@@ -37,7 +37,7 @@ class SceneCourses {
   ///
   /// @throws UncertainMotion; std::invalid_argument where the scene is not one of rigid bodies
   ///
-  /// @param turnings  of robots, by their number
+  /// @param turnings  turnings of robots, by their number
   /// @param mover     a body that counts as moving, wherever it rests
   explicit SceneCourses(const LoadedScene& loaded,
                         const std::map<std::size_t, Turnings>& turnings = {},
