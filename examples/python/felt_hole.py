@@ -1,10 +1,11 @@
-"""What does a hand feel that presses a peg on its hole? Draws a map of the forces.
+"""Which force does a hand feel that presses a peg on its hole? Draws a map of the forces.
 
     python3 felt_hole.py [MAP.svg [CELLS]]
 
 The hand presses the peg half a millimetre below the rim, at CELLS x CELLS places around the axis of
-the hole. In the middle the peg goes in, and the hand feels nothing. Beside it chamfer slides on
-chamfer: the force leads to the axis. Farther out the foot lands on the rim and is pushed up.
+the hole. Near the axis the peg goes in, and the hand feels no force. Beside it the chamfer of the peg
+slides on the chamfer of the hole: the force points to the axis. Farther out the peg stands on the
+rim, and the force points up.
 """
 
 import json
@@ -14,7 +15,7 @@ import sys
 import firstcontact as fc
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "demo/haptics"
-REACH = 1.0  # [mm]  The map goes so far from the axis of the hole.
+REACH = 1.0  # [mm]  Half of the width of the map.
 OVER, PRESSED = -3.0, -4.0  # [mm]  The height of the handle: 0.5 mm over the rim, and 0.5 mm below it.
 
 
@@ -30,7 +31,7 @@ def session() -> fc.HapticSession:
 
 
 def press(felt: fc.HapticSession, x: float, y: float):
-    """The force [N] on the hand that leads the axis of the peg to a place [mm] and presses it down."""
+    """Returns the force [N] on a hand that moves the axis of the peg to x, y [mm] and presses it down."""
     tick = None
     for height, ticks in ((OVER, 3), (PRESSED, 12)):
         for _ in range(ticks):  # The peg begins 4 mm beside the axis of the hole, with the handle at 0.
@@ -41,7 +42,7 @@ def press(felt: fc.HapticSession, x: float, y: float):
 
 
 def draw(rows: list, most: float) -> str:
-    """A square for each place, the darker the stronger; an arrow along the force in the plane."""
+    """Draws a square for each place, darker for a stronger force, and an arrow along its horizontal part."""
     size, cells = 12, len(rows)
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size * cells} {size * cells}">']
     for row, places in enumerate(rows):

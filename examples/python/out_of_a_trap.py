@@ -1,4 +1,4 @@
-"""Out of a bug trap: a path that is proven, what it keeps, and the same as a motion to look at."""
+"""Which path leads out of a bug trap? Plans a proven path, prints its clearance, and checks it as a motion."""
 
 import json
 import pathlib
@@ -15,7 +15,7 @@ print(f"{answer.verdict}: {len(answer.waypoints) - 1} edges, "
 for first, second, times in answer.blocked[:3]:
     print(f"  {first} and {second} were in the way of {times} edges")
 
-# The path as a motion of a scene: its time is the way that its corners go, about.
+# The path as a motion of a scene. Its times are about proportional to the path of its corners.
 scene = json.loads(FILE.read_text())
 places = answer.waypoints
 turns = 2 * np.arccos(np.clip(np.abs((places[1:, 3:] * places[:-1, 3:]).sum(axis=1)), 0, 1))
@@ -28,7 +28,7 @@ bug["motion"] = {"type": "waypoints", "times": times.tolist(),
                  "poses": [{"position": place[:3].tolist(), "quaternion_wxyz": place[3:].tolist()}
                            for place in places]}
 walls = [body["name"] for body in scene["bodies"][:-1]]
-scene["pairs"] = {"groups": {"trap": walls}, "ignore": [["trap", "trap"]]}  # They touch each other.
+scene["pairs"] = {"groups": {"trap": walls}, "ignore": [["trap", "trap"]]}  # The walls touch each other.
 result = fc.check(scene, closest=True)
 print(f"as a motion: {result.verdict}, closest {1e3 * result.closest.distance:.3f} mm "
       f"from {' and '.join(result.closest.pair)}")

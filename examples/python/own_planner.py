@@ -1,13 +1,13 @@
-"""A planner of your own on proven edges: a plate goes through a window in a wall of 10 micrometres."""
+"""How does your own planner use proven edges? A plate goes through a window in a wall 10 micrometres thick."""
 
 import firstcontact as fc
 import numpy as np
 
-HALF = 0.2  # [m] Of the window; the plate has 0.1 m on each side of its middle.
+HALF = 0.2  # [m]  Half of the width of the window; the plate has 0.1 m on each side of its middle.
 
 
 def beam(name: str, y: tuple, z: tuple) -> dict:
-    """A part of the wall x = 0."""
+    """Returns a box that is a part of the wall x = 0."""
     return {"name": name, "shape": {"box": {"size": [1e-5, y[1] - y[0], z[1] - z[0]]}},
             "pose": {"position": [0, sum(y) / 2, sum(z) / 2]}}
 
@@ -27,7 +27,7 @@ random = np.random.default_rng(1)
 
 
 def poses(places: np.ndarray) -> np.ndarray:
-    """The plate does not turn."""
+    """Returns poses of the plate, which does not turn."""
     return np.hstack([places, np.tile([1.0, 0, 0, 0], (len(places), 1))])
 
 
@@ -35,13 +35,13 @@ def check(places: np.ndarray, further: np.ndarray) -> fc.EdgeAnswers:
     return edges.check(poses(places), poses(further))
 
 
-# What a planner does that looks at 100 places of each edge.
+# For comparison: a planner that samples 100 places of each edge.
 steps = np.linspace(start, goal, 100)
 seen = (edges.clearance(poses(steps)) > 0).all()
 print(f"straight on: 100 places {'are free' if seen else 'are not free'}, "
       f"the edge is proven to {check(start[None], goal[None]).fraction[0]:.4f} of its length")
 
-# Each round grows the tree by as many edges as there are samples, checked at once.
+# Each round adds one edge for each sample. One call checks all edges of a round.
 places, parents = start[None], [-1]
 reached = None
 while reached is None:
@@ -50,7 +50,7 @@ while reached is None:
     near = np.linalg.norm(samples[:, None] - places[None], axis=2).argmin(axis=1)
     way = samples - places[near]
     way *= np.minimum(1, 0.4 / np.linalg.norm(way, axis=1))[:, None]
-    # As far as the edge is proven, and a little less.
+    # A little less than the proven part of the edge.
     share = check(places[near], places[near] + way).fraction
     share[share < 1] *= 0.95
     kept = share * np.linalg.norm(way, axis=1) > 1e-3
@@ -65,7 +65,7 @@ while reached != -1:
     reached = parents[reached]
 path = np.array(path[::-1])
 
-# Leave out what a proven edge makes needless.
+# Leave out waypoints that a proven edge can skip.
 for _ in range(50):
     a, b = sorted(random.integers(0, len(path), 2))
     if b > a + 1 and check(path[a:a + 1], path[b:b + 1]).free[0]:

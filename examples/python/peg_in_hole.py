@@ -14,7 +14,7 @@ for name in ("peg_straight", "peg_tilted"):
     result = fc.check(SCENES / f"{name}.json")
     print(f"{result.id}: {result.verdict}")
 
-# The last one touches. In a notebook, `result` alone shows the page.
+# In the last scene the peg touches the hole. In a notebook, `result` alone shows the page.
 print(f"{' and '.join(result.pair)} after {1000 * result.time:.1f} ms, {len(result.contacts)} contacts")
 if len(sys.argv) > 1:
     result.save_html(sys.argv[1])

@@ -1,4 +1,4 @@
-"""Both ends of a robot's motion are free. Is the way between? And how far must it lift its arm?"""
+"""Is a robot's motion free if both its ends are? And how far must the robot lift its arm?"""
 
 import pathlib
 
@@ -13,7 +13,7 @@ scene.add_body("post", fc.make_cylinder(0.05, 0.8), fc.Motion.fixed(fc.Pose((0.0
 
 
 def swing(lift: float) -> fc.Trajectory:
-    """Half a turn in two seconds; half way the arm is lifted by so much [rad]."""
+    """Returns half a turn in two seconds, with the arm lifted by `lift` [rad] halfway."""
     times = np.linspace(0, 2, 9)
     s = times / 2
     positions = np.column_stack([np.pi * (3 * s**2 - 2 * s**3), lift * np.sin(np.pi * s)**2])

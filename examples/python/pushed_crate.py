@@ -1,4 +1,4 @@
-"""A robot's controller in the loop: a crate is pushed over the floor to where it shall be.
+"""How does a controller move a crate over a floor to its goal? Sets its velocity between simulation steps.
 
     python3 pushed_crate.py [RUN.jsonl]
 """
@@ -23,7 +23,7 @@ simulator = fc.Simulator(scene)
 crate = simulator.names.index("crate")
 print(f"The crate has {simulator.masses[crate]:.1f} kg")
 
-# Each step looks where the crate is, and gives it the speed that a controller wants.
+# In each step the controller reads the place of the crate, and sets the crate's velocity.
 closest = np.inf
 while simulator.step_count < simulator.steps_of_duration:
     away = GOAL - simulator.positions[crate, 0]
@@ -34,7 +34,7 @@ while simulator.step_count < simulator.steps_of_duration:
 print(f"It is at {simulator.positions[crate, 0]:.3f} m, never nearer to the floor than "
       f"{1e6 * closest:.2f} µm, proven")
 
-# Without the controller: a run on record, and its proof by other code.
+# Without the controller: a recorded run, and its proof by other code.
 if len(sys.argv) > 1:
     steps = fc.simulate(scene, record=sys.argv[1])
     force = steps[-1].contacts.impulses.sum(axis=0) / steps[-1].lasted

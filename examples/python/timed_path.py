@@ -1,4 +1,4 @@
-"""From a proven path to a trajectory for a controller: a Panda passes a post, in three modes."""
+"""Which trajectory follows a proven path? Times the path of a Panda past a post, in three modes."""
 
 import pathlib
 import sys
@@ -20,7 +20,7 @@ scene = {
 path = fc.plan(scene)
 print(f"path: {path.verdict}, {len(path.waypoints) - 1} edges")
 
-# Limits of acceleration and jerk; those of velocity are in the URDF.
+# Limits of acceleration and jerk. The velocity limits are in the URDF.
 accelerations = dict(zip([f"panda_joint{k}" for k in range(1, 8)], [3.75, 1.875, 2.5, 3.125, 3.75, 5, 5]))
 limits = {joint: {"max_acceleration": most, "max_jerk": 100 * most} for joint, most in accelerations.items()}
 for mode in ("stop", "blend", "time_optimal"):

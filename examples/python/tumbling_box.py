@@ -1,4 +1,4 @@
-"""When does a tumbling box hit the floor, and with what?"""
+"""When does a tumbling box hit the floor, and with which feature?"""
 
 import math
 
@@ -7,7 +7,7 @@ import firstcontact as fc
 box = fc.make_box((0.2, 0.2, 0.2))
 floor = fc.make_box((10, 10, 1))
 
-# One step: 1 m down while it turns once about the x axis.
+# One step: the box moves 1 m down while it turns once about the x axis.
 start = fc.Pose((0, 0, 0.9))
 tumble = fc.Motion.constant_velocity(start, translation=(0, 0, -1), rotation_vector=(2 * math.pi, 0, 0))
 rest = fc.Motion.fixed(fc.Pose((0, 0, -0.5)))
