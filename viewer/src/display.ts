@@ -1,15 +1,15 @@
-/// What the person who looks has switched on.
+/// The parts of the picture that the user has switched on.
 
 import { Signal } from "./core/signal";
 
-/// A plane: what stands before it is not drawn.
+/// A plane that cuts: geometry in front of it is not drawn.
 export interface Cut {
   readonly along: "view" | "x" | "y" | "z";
   /// How far along, from 0 to 1. Of the view, 0.5 is at the point that the camera looks at.
   readonly share: number;
-  /// Not drawn is what stands behind it.
+  /// True if the geometry behind the plane is not drawn, in place of that in front.
   readonly otherSide: boolean;
-  /// It came with a contact that could not be seen, and goes with it.
+  /// True if the page made the cut for a hidden contact. Then the page also removes it.
   readonly byItself: boolean;
 }
 
@@ -22,7 +22,7 @@ export class Display {
   readonly contacts = new Signal(true);
   /// Arrows of contact forces, in runs.
   readonly forces = new Signal(true);
-  /// What links look like, in place of what was tested.
+  /// Shows the visual geometry of links in place of the tested geometry.
   readonly looks = new Signal(false);
   /// Where bodies are cut; null where they are whole.
   readonly cut = new Signal<Cut | null>(null);
@@ -53,7 +53,7 @@ export class Display {
     return this.opacities.value.get(body) ?? 1;
   }
 
-  /// What stands before the point that is looked at is cut away, or all is whole again.
+  /// Cuts away the geometry in front of the point that the camera looks at, or removes the cut.
   toggleCut(): void {
     const first: Cut = { along: "view", share: 0.5, otherSide: false, byItself: false };
     this.cut.value = this.cut.value ? null : first;

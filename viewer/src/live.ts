@@ -1,4 +1,4 @@
-/// A page on which the mouse is the haptic device: what the tool sends, and what it is sent.
+/// A page on which the mouse is the haptic device: the messages to and from the tool.
 
 import type { QuaternionWxyz, Vector3 } from "./data/result";
 import type { Pose } from "./motion/motion";
@@ -15,7 +15,7 @@ export interface Picture {
   readonly contacts: readonly Vector3[];
 }
 
-/// What follows the mouse: a body, the links that hang on it, and how many grips move these.
+/// The tool that follows the mouse: a body, its links, and the number of grips that move the links.
 export interface LiveTool {
   readonly tool: number;
   readonly links?: readonly number[];
@@ -84,7 +84,7 @@ export class Connection {
   }
 }
 
-/// [m] How far the hand leads the tool from where contacts let it be.
+/// [m] The distance between the hand and the tool, which contacts hold back.
 export function lead({ bodies, target }: Picture, tool: number): number {
   const body = bodies.find(([number]) => number === tool);
   return body ? distance(poseFrom(target).position, poseFrom(body.slice(1)).position) : 0;

@@ -31,7 +31,7 @@ export interface BodyGeometry {
   readonly to: readonly Vector3[] | null; ///< Where its vertices end, in the world, if it deforms.
 }
 
-/// How a body of a run goes.
+/// The motion of a body in a run.
 export interface Course {
   readonly way: WayData;
   readonly centre: Vector3; ///< Of mass, in the body: it goes on lines.
@@ -103,7 +103,7 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
   };
 }
 
-/// A body by its way in a run, and no longer by what the scene says.
+/// Returns a body that moves as recorded in the run, in place of its motion in the scene.
 function along(body: Body, way: WayData, { header, linksFrom, steps }: RunData): Body {
   const centre = header.centres_of_mass[way.body]!;
   return {
@@ -118,7 +118,7 @@ function along(body: Body, way: WayData, { header, linksFrom, steps }: RunData):
 
 const turns = (type: string): boolean => type !== "prismatic" && type !== "fixed";
 
-/// How far a coordinate goes to and fro, from samples.
+/// Computes the total variation of a coordinate, from samples.
 function variation(at: (t: number) => number): number {
   const samples = Array.from({ length: 129 }, (_, k) => at(k / 128));
   return samples.slice(1).reduce((sum, q, k) => sum + Math.abs(q - samples[k]!), 0);
@@ -233,7 +233,7 @@ export class Model {
   readonly version: string;
   /// [s]
   readonly duration: number;
-  /// One of these two.
+  /// Either `result` or `run` is null.
   readonly result: Result | null;
   readonly run: Run | null;
   /// Bodies, then the links of each robot.
@@ -246,7 +246,7 @@ export class Model {
   readonly gapBound: GapLine;
   /// Those of every pair where the result has them, each at its own pair's time.
   readonly pairs: readonly PairAnswer[];
-  /// What a person who looks should know.
+  /// The warnings for the user.
   readonly warnings: readonly string[];
   /// Which pairs the answer is about; null where that is not known.
   readonly pairCounts: PairCounts | null;
@@ -328,7 +328,7 @@ export class Model {
     return geometries.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
   }
 
-  /// Whether any link looks different from what was tested, or has a colour of its own.
+  /// True if any link has visual geometry that differs from the tested one, or a colour of its own.
   get hasLooks(): boolean {
     return this.bodies.some(
       ({ geometries, looks }) => looks !== null || geometries.some(({ color }) => color !== null),

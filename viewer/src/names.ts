@@ -1,4 +1,4 @@
-/// Which part of a name tells it from others.
+/// Finds the part of a name that differs from other names.
 
 /// A beginning that ends here may be shared.
 const separator = /[_\-/.:\s]/g;
@@ -9,7 +9,7 @@ function beginningsOf(name: string): string[] {
     .filter((beginning) => beginning.length < name.length);
 }
 
-/// Of each name, the longest beginning that another one has too: it tells nothing.
+/// Finds for each name the longest beginning that another name has, too.
 export function sharedBeginnings(names: readonly string[]): ReadonlyMap<string, string> {
   const counts = new Map<string, number>();
   const all = [...new Set(names)].map((name) => ({ name, beginnings: beginningsOf(name) }));

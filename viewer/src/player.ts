@@ -13,7 +13,7 @@ export class Player {
   readonly playing = new Signal(false);
   readonly speed: Signal<number>;
   readonly loop = new Signal(false);
-  /// What of the time charts show; it follows t.
+  /// The part of the time that charts show; it follows t.
   readonly window = new TimeWindow();
 
   /// @param duration   [s] of the scene

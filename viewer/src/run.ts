@@ -1,4 +1,4 @@
-/// The steps of a run, and what acted in each of them.
+/// The steps of a run, with the contacts, impacts and ties of each step.
 
 import type { Vector3 } from "./data/result";
 import type { RunContactsData, RunData, StepData } from "./data/run_data";
@@ -38,7 +38,7 @@ export class Run {
   readonly hasDynamics: boolean;
   /// Bodies without the geometries of links, which are behind them.
   readonly linksFrom: number;
-  /// What the events of a step are: a haptic tool has none but the rounds of its contact loop.
+  /// The name of a step's events. For a haptic tool they are the rounds of its contact loop.
   readonly eventName: "Impacts" | "Rounds";
   /// [W] Of all motors together in each step, negative where they brake; none without motors.
   readonly motorPowers: readonly number[] | null;
@@ -164,7 +164,7 @@ export class Run {
     return lasted > 0 ? Math.sqrt(most) / lasted : 0;
   }
 
-  /// Efforts are means over the step, and so is what they move: of the velocities at its ends.
+  /// [W]  The efforts, means over the step, times the mean of the velocities at its ends.
   private motorPower(step: number): number {
     const before = this.steps[step - 1]?.robots;
     let power = 0;

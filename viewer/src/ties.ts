@@ -23,7 +23,7 @@ interface Place {
 
 const world: Motion = () => identity;
 
-/// A point of each body, in its frame. What one of them lacks is where the other's is at the start.
+/// Returns a point of each body, in its frame. A missing point is the other one at the start.
 function pointsOf(
   { type, points }: TieData,
   motions: readonly [Motion, Motion],

@@ -1,4 +1,4 @@
-/// What the tool leaves in the page: a result or a run, and what the page needs to draw it.
+/// The data that the tool writes into the page: a result or a run, and the meshes to draw it.
 
 import { bytesOf } from "./bytes";
 import type { FileReport, PairCounts } from "./reports";

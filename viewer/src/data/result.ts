@@ -83,7 +83,7 @@ export interface Closest {
   readonly points?: readonly [Vector3, Vector3];
 }
 
-/// What is said of the scene, and in the same words of each pair.
+/// The answer for the scene; the answer of each pair has the same keys.
 export interface Answer {
   readonly verdict: Verdict;
   readonly reason: string | null;
@@ -110,7 +110,7 @@ export interface PairAnswer extends Answer {
   readonly intervals?: readonly Interval[];
 }
 
-/// A joint beyond one of its limits, outside of whose intervals [s] the limit is kept.
+/// A joint beyond one of its limits. Outside the intervals [s] the joint keeps the limit.
 export interface Limit {
   readonly robot: string;
   readonly joint: string;

@@ -1,4 +1,4 @@
-/// Many results in one page: what a batch leaves there.
+/// Many results in one page: the data that a batch writes.
 
 import {
   meshOf,
@@ -26,7 +26,7 @@ export interface Summary {
 }
 
 interface StoredEntry {
-  /// One of these two; the second cannot be played.
+  /// Each entry has one of these two; an entry with the second one cannot be played.
   readonly result?: Result & Summary;
   readonly summary?: Summary;
   readonly view?: Omit<StoredView, "meshes"> & { readonly meshes: readonly number[] };
@@ -50,7 +50,7 @@ export class ResultList {
     return this.stored.list[index]?.view !== undefined;
   }
 
-  /// Null of what cannot be played.
+  /// Returns null for an entry that cannot be played.
   pageOf(index: number): PageData | null {
     const { result, view } = this.stored.list[index] ?? {};
     if (!result || !view) {

@@ -7,14 +7,14 @@ export interface GeometryData {
   readonly mesh: number;
   readonly pose: PoseData;
   readonly radius?: number;
-  /// Red, green, blue, from 0 to 1: of what a link looks like.
+  /// Red, green, blue, from 0 to 1: the colour of the visual geometry.
   readonly color?: Vector3;
 }
 
 export interface LinkData {
   readonly name: string;
   readonly collision: readonly GeometryData[];
-  /// What the link looks like, where that differs.
+  /// The visual geometry of the link, if it differs.
   readonly visual?: readonly GeometryData[];
 }
 

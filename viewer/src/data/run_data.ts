@@ -10,7 +10,7 @@ export interface ImpactData {
   readonly impulse: Vector3; ///< [N s] On the second body.
 }
 
-/// What is said of all bodies together.
+/// The values of a step for all bodies together.
 export interface StepData {
   readonly step: number;
   readonly time: number; ///< [s] At its end.
@@ -33,7 +33,7 @@ export interface TieForceData {
   readonly force: Vector3; ///< [N] On its second body, the mean over the step without impacts.
 }
 
-/// What ties two bodies, or a body to the world, as in scenes.
+/// A tie of two bodies, or of a body and the world, as in scenes.
 export interface TieData {
   readonly type: "spring" | "cable" | "pin" | "hinge" | "weld";
   readonly bodies: readonly [string | null, string | null];

@@ -38,7 +38,7 @@ function keyTimes(model: Model): number[] {
   return [...times].sort((a, b) => a - b);
 }
 
-/// Between two keys the centre of mass goes on a line, and a player turns by the shortest way.
+/// Between two keys the centre of mass moves on a line, and a player turns by the shortest way.
 function keysOfRun({ way }: Course, duration: number): number[] {
   return keysAlong(way, mostKeys).map((time) => Math.min(time / duration, 1));
 }

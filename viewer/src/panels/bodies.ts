@@ -23,7 +23,7 @@ const rowOf = (body: Body): Row => ({
   kind: body.robot === null ? "body" : "link",
 });
 
-/// Robots with their links first: they are what the question is about.
+/// Robots with their links come first, as the question is about them.
 function rowsOf({ robots, bodies }: Model): Row[] {
   const shown = bodies.filter(isDrawn);
   const ofRobots = robots.flatMap((name, robot): Row[] => {

@@ -1,5 +1,5 @@
-/// What stands first in a row of something over time: its name, which shows it in the large chart,
-/// and what it is now.
+/// The head of a row over time: its present value, and its name. A click on the name shows the row
+/// in the large chart.
 
 import { element } from "../core/dom";
 import type { Signal } from "../core/signal";

@@ -1,4 +1,4 @@
-/// What became of each file that was read.
+/// The report on each file: what was read, and what was left out.
 
 import { element } from "../core/dom";
 import type { FileReport } from "../data/reports";

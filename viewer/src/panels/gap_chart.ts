@@ -1,4 +1,4 @@
-/// The gap over time: samples, and what is proven below them.
+/// The gap over time: samples, and the proven bound below them.
 
 import { lengthUnit } from "../core/format";
 import type { GapLine } from "../data/page_data";
@@ -26,7 +26,7 @@ export function gapContent({ gap, gapBound, pairs }: Model): ChartContent | null
       line(gapBound, { color: "proven", width: 1, fill: "chart-bound" }),
     ],
     levels: [],
-    // Where a pair is in contact, if the result tells of all times and not of the first alone.
+    // The intervals of contact of a pair, if the result has all of them.
     bands: pairs
       .flatMap(({ intervals = [] }) => intervals)
       .map(({ enter, leave }) => ({ from: enter, to: leave, color: "chart-contact" })),

@@ -1,4 +1,4 @@
-/// What the keys and the mouse do, and whose work the page contains.
+/// Help: the effect of keys and mouse, and the authors of the code in the page.
 
 import { element, iconButton } from "../core/dom";
 import { icons } from "../core/icons";

@@ -13,7 +13,7 @@ export function timesOf({ breaks, atRest }: Coordinate): number[] {
   return atRest ? [0, 1] : [...new Set([...even, ...breaks])].sort((a, b) => a - b);
 }
 
-/// What a chart of a coordinate reaches from and to: its limits are seen, and so is the way.
+/// Returns the range of a chart of a coordinate. It includes the limits and all values.
 export function rangeOf({ lower, upper }: Coordinate, values: readonly number[]): [number, number] {
   const all = [...values, ...[lower, upper].filter((end) => end !== null)];
   const [least, most] = [Math.min(...all), Math.max(...all)];

@@ -11,7 +11,7 @@ import { chartButton } from "./chart_button";
 import { badTimes, rangeOf, timesOf, valueText, violationText } from "./joint_chart";
 import { layer, sketch, stretch, upright } from "./sketch";
 
-/// The coordinate as a small picture, and what moves its line of time.
+/// Makes a small picture of the coordinate, and the function that moves its time line.
 function picture(coordinate: Coordinate, model: Model, player: Player) {
   const t = timesOf(coordinate);
   const value = t.map(coordinate.at);

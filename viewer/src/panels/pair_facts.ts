@@ -47,7 +47,7 @@ export function untestedPairs(counts: PairCounts | null): HTMLElement[] {
       ];
 }
 
-/// "none of the 3 tested pairs touches": the subject and what is denied of it.
+/// Returns a sentence such as "none of the 3 tested pairs touches", for a verb such as "touches".
 export function noneOf(counts: PairCounts | null, verb: string): string {
   switch (counts?.tested) {
     case undefined:

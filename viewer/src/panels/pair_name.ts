@@ -1,5 +1,5 @@
-/// The names of a pair in one line. Where room lacks, what their names share with those of other
-/// bodies goes first.
+/// The names of a pair in one line. If the line is too short, the names lose the beginnings that
+/// they share with names of other bodies.
 
 import { element } from "../core/dom";
 import type { Names } from "../data/result";

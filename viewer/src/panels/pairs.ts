@@ -1,4 +1,5 @@
-/// The pairs of bodies with their verdicts: sorted by what is clicked, a pair looked at by a click.
+/// The pairs of bodies with their verdicts. A click on a column sorts them; a click on a pair looks at
+/// it.
 
 import { element } from "../core/dom";
 import { lengthText, timeText } from "../core/format";

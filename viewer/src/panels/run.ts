@@ -1,4 +1,4 @@
-/// What a run amounts to, in one card.
+/// The summary of a run, in one card.
 
 import { element } from "../core/dom";
 import { energyText, forceText, impulseText, lengthText, number, timeText } from "../core/format";

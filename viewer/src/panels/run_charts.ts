@@ -1,4 +1,4 @@
-/// What is said of every step, over time. A click shows one of them in the large chart.
+/// The values of every step over time. A click shows one of them in the large chart.
 
 import { element } from "../core/dom";
 import {
@@ -28,7 +28,7 @@ export interface RunChart {
   readonly unitFor: (value: number) => Unit;
 }
 
-/// What is counted has no unit.
+/// The unit of counts, which has no name.
 const ones = (): Unit => ({ name: "", size: 1 });
 
 const finite = (values: readonly (number | null)[]): number[] =>
@@ -37,7 +37,7 @@ const least = (values: readonly number[]): number =>
   values.reduce((a, b) => Math.min(a, b), Infinity);
 const most = (values: readonly number[]): number => values.reduce((a, b) => Math.max(a, b), 0);
 
-/// What a step took holds from its beginning to its end.
+/// Makes a stepped line: the value of a step holds from its beginning to its end.
 function steppedLine({ ends }: Run, values: readonly (number | null)[]): ChartLine {
   const known = values.flatMap((value, k) => (value === null ? [] : [{ t: ends[k]!, value }]));
   const first = known[0] ? [{ t: 0, value: known[0].value }] : [];

@@ -1,5 +1,4 @@
-/// A small picture of something over time, with a line at the moment that is shown. A click goes to
-/// its moment.
+/// A small picture of a value over time, with a line at the shown moment. A click goes to its moment.
 
 import type { Player } from "../player";
 
@@ -59,7 +58,7 @@ function seekIn(svg: SVGElement, player: Player): void {
   });
 }
 
-/// @param below  what is drawn under the line
+/// @param below  the drawing under the line
 /// @param above  and over it
 export function sketch(
   { t, value, range }: SketchLine,

@@ -1,4 +1,4 @@
-/// The step that is under way: its facts, and what touches.
+/// The current step: its facts, its contacts and its impacts.
 
 import { element } from "../core/dom";
 import {
@@ -60,7 +60,7 @@ function row(
   return rowButton(`${a!.name} · ${b!.name}`, lines, () => view.focusPoint(point, [a!, b!]));
 }
 
-/// A row of two names and what is said of them.
+/// Makes a row of two names and the lines about them.
 function rowButton(names: string, lines: readonly string[], look: () => void): HTMLElement {
   const button = element(
     "button.row-name.tall",
@@ -121,7 +121,7 @@ function rowsPanel(run: Run, player: Player, { name, less, of }: Rows): HTMLElem
   );
 }
 
-/// What acted at the end of the step, the greatest forces first.
+/// The contacts that acted at the end of the step, the greatest forces first.
 export function stepContactsPanel(
   model: Model,
   run: Run,
@@ -140,7 +140,7 @@ export function stepContactsPanel(
   return rowsPanel(run, player, { name: "Contacts", less: "force", of });
 }
 
-/// What ties bodies, the greatest forces first; none where the run has no tie.
+/// The ties of bodies, the greatest forces first; none if the run has no tie.
 export function stepTiesPanel(
   model: Model,
   run: Run,

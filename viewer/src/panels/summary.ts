@@ -1,4 +1,4 @@
-/// What was found, in one card.
+/// The answer, in one card.
 
 import { element } from "../core/dom";
 import { lengthText, quantity, timeText } from "../core/format";

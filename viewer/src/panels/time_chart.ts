@@ -1,4 +1,5 @@
-/// Something over time, above the slider. What is proven free is shaded; a click goes to its moment.
+/// The large chart over time, above the slider. It shades the time that is proven free. A click goes
+/// to its moment.
 
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
@@ -33,7 +34,7 @@ export interface ChartBand {
   readonly color: string;
 }
 
-/// What a chart shows, in its unit.
+/// The content of a chart, in its unit.
 export interface ChartContent {
   readonly title: string;
   readonly unit: string;
@@ -44,14 +45,14 @@ export interface ChartContent {
   /// Drawn across all of the time.
   readonly levels: readonly number[];
   readonly bands: readonly ChartBand[];
-  /// Back to what was shown before.
+  /// Returns to the content that was shown before.
   readonly close?: () => void;
 }
 
 const wheelZoom = 0.002; // By pixels of the wheel.
 const wheelMove = 0.0005;
 
-/// What is drawn from now on stays within the lines' part of the chart, but for half a line.
+/// Clips all later drawing to the plot area of the chart, plus half a line width.
 function clipTo(ctx: CanvasRenderingContext2D, { left, top, width, height }: uPlot.BBox): void {
   const edge = devicePixelRatio;
   ctx.beginPath();
@@ -219,7 +220,7 @@ export class TimeChart {
     });
   }
 
-  /// Proven free, what lies after it, and what the content says.
+  /// Shades the time that is proven free, the time after it, and the bands of the content.
   private shade({ ctx, bbox }: uPlot, { bands }: ChartContent): void {
     const t = this.model.provenUntil;
     const all = [

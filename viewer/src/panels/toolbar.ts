@@ -1,4 +1,4 @@
-/// What can be switched on, and what can be taken away from the page.
+/// The buttons that switch parts of the picture on, and those that save files.
 
 import { element, iconButton } from "../core/dom";
 import { icons } from "../core/icons";

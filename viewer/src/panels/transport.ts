@@ -100,7 +100,7 @@ function clock(model: Model, { player }: Commands): HTMLElement {
   return element("div.clock", { "aria-live": "off" }, now, detail);
 }
 
-/// So that about five digits are seen.
+/// Returns the number of decimals that gives about five digits.
 const decimals = (size: number): number => Math.max(0, 4 - Math.floor(Math.log10(size)));
 
 export function transport(model: Model, commands: Commands, chart: HTMLElement): HTMLElement {

@@ -1,4 +1,4 @@
-/// The verdict, and beside it what it is worth: how many pairs were tested, what there is to warn of.
+/// The verdict, with the number of tested pairs and of warnings.
 
 import { element } from "../core/dom";
 import type { Signal } from "../core/signal";
@@ -37,7 +37,7 @@ function worth({ pairCounts, warnings }: Model): { pairs: string | null; warning
   };
 }
 
-/// A click on the warnings leads to them.
+/// A click on the number of warnings shows the warnings.
 export function verdictLine(model: Model): HTMLElement {
   const { kind, text } = verdictOf(model);
   const { pairs, warnings } = worth(model);

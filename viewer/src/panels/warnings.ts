@@ -1,4 +1,4 @@
-/// What a person who looks should know.
+/// The warnings of the answer.
 
 import { element } from "../core/dom";
 import type { Model } from "../model";
