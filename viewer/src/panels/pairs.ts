@@ -1,5 +1,5 @@
-/// The pairs of bodies with their verdicts. A click on a column sorts them; a click on a pair looks at
-/// it.
+/// The pairs of bodies with their verdicts. A click on a column sorts them; a click on a pair
+/// looks at it.
 
 import { element } from "../core/dom";
 import { lengthText, timeText } from "../core/format";

@@ -1,4 +1,5 @@
-/// A small picture of a value over time, with a line at the shown moment. A click goes to its moment.
+/// A small picture of a value over time, with a line at the shown moment. A click goes to its
+/// moment.
 
 import type { Player } from "../player";
 

@@ -1,5 +1,5 @@
-/// The large chart over time, above the slider. It shades the time that is proven free. A click goes
-/// to its moment.
+/// The large chart over time, above the slider. It shades the time that is proven free. A click
+/// goes to its moment.
 
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
