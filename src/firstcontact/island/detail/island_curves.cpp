@@ -30,7 +30,7 @@ ContactPoint moved(const ContactPoint& contact, const MovedContact& to) {
 ContactPoint by_mean(const ActingContact& acting) {
   ContactPoint contact = moved(acting.now, acting.halfway);
   contact.least_normal_velocity = acting.least;
-  contact.sticking_velocity += acting.change_of_belt;
+  contact.sticking_velocity += acting.change_of_belt - acting.slip;
   if (acting.is_held) {
     contact.least_normal_velocity = kBackToRest * acting.least - acting.change[0];
     contact.sticking_velocity -= acting.change.tail<2>();

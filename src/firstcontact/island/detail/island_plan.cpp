@@ -269,12 +269,13 @@ bool IslandPlanner::find_solution() {
   solve();
   for (int pass = 0; pass < kPassesOfCurves && !by_end_; ++pass) {
     const bool turns = follow_curves();
+    const bool slides = follow_slides();
     const bool spins = follow_spins();
     const bool swings = pass == 0 && follow_loads();
     if (spins || swings) {
       last_.reset();
     }
-    if (!turns && last_) {
+    if (!turns && !slides && last_) {
       break;
     }
     solve();
@@ -409,33 +410,6 @@ double IslandPlanner::slack_of_mean() const {
 /// [m/s]  The least mean normal velocity of a contact.
 double IslandPlanner::least_of_mean(std::size_t k) const {
   return acts(k) ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
-}
-
-/// Whether a pair that slides now sticks from the first half of the plan on. The mean would let it
-/// slide for half of the plan.
-///
-/// @param first,end  the contacts of the pair
-bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
-  const double slow = kSlackOfMean * state_.model.distances.least / span_;
-  Vector3d friction = Vector3d::Zero();
-  double most = 0.0;
-  bool slides = false;
-  for (std::size_t k = first; k < end; ++k) {
-    const ContactPoint& contact = problem_.contacts[k];
-    const Vector3d& impulse = last_->velocities.impulses[k];
-    const Vector3d at_end = relative_velocity(contact, last_->velocities.bodies);
-    if ((at_end.tail<2>() - contact.sticking_velocity).norm() > slow) {
-      return false;
-    }
-    const ContactPoint& before = acting_[k].now;
-    const Eigen::Vector2d slip =
-        relative_velocity(before, bodies_.bodies()).tail<2>() - before.sticking_velocity;
-    const double of_curve = kSlipOfChange * acting_[k].change.tail<2>().norm();
-    slides = slides || (impulse[0] > 0.0 && slip.norm() > std::max(slow, of_curve));
-    friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
-    most += contact.friction * impulse[0];
-  }
-  return slides && friction.norm() < 0.5 * most;
 }
 
 /// Whether any contact changes with the motion of its bodies.

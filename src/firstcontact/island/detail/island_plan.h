@@ -44,6 +44,8 @@ struct ActingContact {
   Eigen::Vector2d change_of_belt = Eigen::Vector2d::Zero();
   bool is_held = false;  ///< Whether it presses, or its bodies rest there: it goes on with them.
   double least = 0.0;    ///< [m/s]  Least mean normal velocity over the plan.
+  /// [m/s]  Slip when the plan begins, where it slides throughout; else 0.
+  Eigen::Vector2d slip = Eigen::Vector2d::Zero();
   bool is_replaced = false;  ///< Whether a predicted contact of the same features replaces it.
   bool is_round = false;     ///< Whether it is on a curved surface that it follows in the plan.
   int lifts = 0;             ///< [tolerances]  Extra distance that it has to keep.
@@ -194,6 +196,9 @@ class IslandPlanner {
   [[nodiscard]] std::array<ContactSide, 2> mean_sides(std::size_t k,
                                                       const std::vector<ContactBody>& at_end) const;
   [[nodiscard]] bool follow_curves();
+  [[nodiscard]] double slip_of_rolling(std::size_t k) const;
+  [[nodiscard]] Eigen::Vector2d slip_before(std::size_t k) const;
+  [[nodiscard]] bool follow_slides();
   [[nodiscard]] bool follow_spins();
   [[nodiscard]] bool follow_loads();
   [[nodiscard]] std::vector<LinkImpulse> impulses_on_links() const;

@@ -80,6 +80,13 @@ inline constexpr std::ptrdiff_t kManyRecordedOfPair = 100;
 /// the normal of nearly parallel edges turns wildly.
 inline constexpr double kCrossingEdges = 0.1;
 
+/// [-]  A contact is on the side of a cylinder where its normal is across the axis to this sine.
+inline constexpr double kAcrossCylinder = 1e-3;
+
+/// [-]  A contact slides throughout a plan where this fraction of its slip is left at the end.
+/// Smaller: friction is turned against a slip that ends.
+inline constexpr double kLeastOfSlip = 0.1;
+
 // Seams between bodies.
 
 /// [-]  A body beside an edge leaves it a normal if the allowed part of the found one is longer.

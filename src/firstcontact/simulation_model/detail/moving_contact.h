@@ -84,6 +84,9 @@ struct MovedContact {
 /// two edges that cross, or with the line between two centres. For an ellipsoid it is the direction
 /// that separates most. The result is right to first order in the time.
 ///
+/// A contact goes over a face, along an edge or along a cylinder with the other body's point, and
+/// along two lines that cross with the point where they are nearest.
+///
 /// Between two corners, or a corner and an edge, without radius the normal stays. Otherwise it
 /// would turn about a point at the distance of the gap.
 ///

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cstddef>
+
+#include <firstcontact/island/detail/island_plan.h>
+#include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+
+namespace firstcontact::detail {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// [m/s]  The slip that a rolling contact may seem to have: its curve changes within a plan, and
+/// the place at which it rolls is known within the contact distance.
+double IslandPlanner::slip_of_rolling(std::size_t k) const {
+  const auto& [A, B] = problem_.contacts[k].bodies;
+  const Vector3d turning = bodies_.bodies()[B].w - bodies_.bodies()[A].w;
+  return kSlipOfChange * acting_[k].change.tail<2>().norm() +
+         turning.norm() * state_.model.distances.least;
+}
+
+/// Whether a pair that slides now sticks from the first half of the plan on. The mean would let it
+/// slide for half of the plan.
+///
+/// @param first,end  the contacts of the pair
+bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
+  const double slow = kSlackOfMean * state_.model.distances.least / span_;
+  Vector3d friction = Vector3d::Zero();
+  double most = 0.0;
+  bool slides = false;
+  for (std::size_t k = first; k < end; ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const Vector3d& impulse = last_->velocities.impulses[k];
+    const Vector3d at_end = relative_velocity(contact, last_->velocities.bodies);
+    if ((at_end.tail<2>() - contact.sticking_velocity).norm() > slow) {
+      return false;
+    }
+    slides =
+        slides || (impulse[0] > 0.0 && slip_before(k).norm() > std::max(slow, slip_of_rolling(k)));
+    friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
+    most += contact.friction * impulse[0];
+  }
+  return slides && friction.norm() < 0.5 * most;
+}
+
+/// [m/s]  The slip of an acting contact when the plan begins.
+Vector2d IslandPlanner::slip_before(std::size_t k) const {
+  const ContactPoint& before = acting_[k].now;
+  return relative_velocity(before, bodies_.bodies()).tail<2>() - before.sticking_velocity;
+}
+
+/// Turns the friction of contacts that slide throughout the plan against the mean of their slips.
+/// Friction against the slip at the end alone is of first order where the slip turns. Returns
+/// whether that changes any of them.
+bool IslandPlanner::follow_slides() {
+  const double slow = kSlackOfMean * state_.model.distances.least / span_;
+  bool is_changed = false;
+  for (std::size_t k = 0; k < first_ahead_; ++k) {
+    ActingContact& acting = acting_[k];
+    ContactPoint& contact = problem_.contacts[k];
+    if (!acts(k) || contact.friction == 0.0) {
+      continue;
+    }
+    const Vector2d before = slip_before(k);
+    const Vector2d end = relative_velocity(contact, last_->velocities.bodies).tail<2>() -
+                         contact.sticking_velocity - acting.slip;
+    const bool slides = last_->velocities.impulses[k][0] > 0.0 &&
+                        end.dot(before) > kLeastOfSlip * before.squaredNorm();
+    const double across = std::abs(before[0] * end[1] - before[1] * end[0]);
+    const bool turns = slides && (acting.slip.any() || across > slow * end.norm());
+    const Vector2d slip = turns ? before : Vector2d::Zero();
+    if ((slip - acting.slip).norm() > slow) {
+      contact.sticking_velocity += acting.slip - slip;
+      acting.slip = slip;
+      changed_.push_back(k);
+      is_changed = true;
+    }
+  }
+  return is_changed;
+}
+
+}  // namespace firstcontact::detail
