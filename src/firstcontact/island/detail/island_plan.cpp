@@ -268,8 +268,8 @@ bool IslandPlanner::find_solution() {
   }
   solve();
   for (int pass = 0; pass < kPassesOfCurves && !by_end_; ++pass) {
+    const bool slides = follow_slides();  // First: it looks at the contacts as they were solved.
     const bool turns = follow_curves();
-    const bool slides = follow_slides();
     const bool spins = follow_spins();
     const bool swings = pass == 0 && follow_loads();
     if (spins || swings) {

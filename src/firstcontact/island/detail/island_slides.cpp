@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <limits>
 
 #include <firstcontact/island/detail/island_plan.h>
 #include <firstcontact/island/detail/island_state.h>
+#include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -12,13 +15,18 @@ namespace firstcontact::detail {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// [m/s]  The slip that a rolling contact may seem to have: its curve changes within a plan, and
-/// the place at which it rolls is known within the contact distance.
+/// [m/s]  The slip up to which a contact counts as one that rolls. It is a fraction of the speed at
+/// which the contact goes over both surfaces, and of the change that its curve makes.
 double IslandPlanner::slip_of_rolling(std::size_t k) const {
-  const auto& [A, B] = problem_.contacts[k].bodies;
-  const Vector3d turning = bodies_.bodies()[B].w - bodies_.bodies()[A].w;
-  return kSlipOfChange * acting_[k].change.tail<2>().norm() +
-         turning.norm() * state_.model.distances.least;
+  const ActingContact& acting = acting_[k];
+  const std::array<ContactSide, 2> sides = mean_sides(k, last_->velocities.bodies);
+  double slower = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Vector3d& now = s == 0 ? acting.now.arm_A : acting.now.arm_B;
+    const Vector3d way = turn(-0.5 * span_ * sides[s].w) * acting.halfway.arms[s] - now;
+    slower = std::min(slower, way.norm() / (0.5 * span_));
+  }
+  return kSlipOfRolling * slower + kSlipOfChange * acting.change.tail<2>().norm();
 }
 
 /// Whether a pair that slides now sticks from the first half of the plan on. The mean would let it

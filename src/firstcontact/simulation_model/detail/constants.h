@@ -181,6 +181,10 @@ inline constexpr int kSweepsOfWay = 50;
 /// makes in half of a plan. The plan before led it nearly to that. Smaller: a rolling body seems to
 /// slide and to stop.
 inline constexpr double kSlipOfChange = 0.05;
+/// [-]  A contact that rolls slips by less than this, by the speed at which it goes over both
+/// surfaces. Smaller: rolling bodies seem to slide and to stop. Larger: a ball that begins to roll
+/// slides for half a step more.
+inline constexpr double kSlipOfRolling = 0.01;
 /// [-]  Part of the way back in a plan for a contact that presses and has drifted beyond the
 /// distance of rest. Larger: the mean of the velocities leads too far in the next plan.
 inline constexpr double kBackToRest = 0.5;

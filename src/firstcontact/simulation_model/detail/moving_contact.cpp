@@ -132,38 +132,34 @@ bool is_round(const ContactSide& side) { return radius_of(side) != 0.0; }
 
 /// The line of an edge or of a cylinder's axis, where a contact can go along it. On a rim, to which
 /// the normal leans, it can not.
-std::optional<Vector3d> line_at(const SurfaceThere& surface, const Quaterniond& by,
-                                const Vector3d& n) {
-  if (!surface.along) {
-    return std::nullopt;
-  }
-  const Vector3d along = by * *surface.along;
-  const bool is_on_rim = surface.ring != 0.0 && std::abs(along.dot(n)) > kAcrossCylinder;
-  return is_on_rim ? std::nullopt : std::optional(along);
+std::optional<Vector3d> line_at(const SurfaceThere& surface, const Vector3d& n) {
+  const bool is_on_rim =
+      surface.along && surface.ring != 0.0 && std::abs(surface.along->dot(n)) > kAcrossCylinder;
+  return is_on_rim ? std::nullopt : surface.along;
 }
 
-/// [m]  Computes how far a contact goes along the surfaces of A and of B, to where both points of
-/// it meet again.
+/// [m]  Computes how far a contact goes along the surfaces of A and of B, so that its two points
+/// meet again.
 ///
 /// Along a face, an edge or a cylinder it goes with the other body's point. Where two lines cross
 /// it goes along both.
 ///
-/// @param n        [-]  the normal there
-/// @param between  [m]  from the moved point of A to that of B
+/// @param n       [-]  the normal
+/// @param apart   [m]  by how much B's point leaves A's across the normal, without these ways
 std::array<Vector3d, 2> ways_to_meet(const ManifoldPoint& touch,
                                      const std::array<ContactSide, 2>& sides,
-                                     const std::array<SurfaceThere, 2>& now,
-                                     const std::array<Quaterniond, 2>& by, const Vector3d& n,
-                                     const Vector3d& between) {
-  const Vector3d apart = across(between, n);
+                                     const std::array<SurfaceThere, 2>& now, const Vector3d& n,
+                                     const Vector3d& apart) {
   std::array<Vector3d, 2> ways{Vector3d::Zero(), Vector3d::Zero()};
-  if (goes_over(touch, sides, 0) || goes_over(touch, sides, 1)) {
-    const bool is_over_A = goes_over(touch, sides, 0);
-    ways[is_over_A ? 0 : 1] = is_over_A ? apart : Vector3d(-apart);
+  if (goes_over(touch, sides, 0)) {
+    ways[0] = apart;
     return ways;
   }
-  const std::array<std::optional<Vector3d>, 2> lines{line_at(now[0], by[0], n),
-                                                     line_at(now[1], by[1], n)};
+  if (goes_over(touch, sides, 1)) {
+    ways[1] = -apart;
+    return ways;
+  }
+  const std::array<std::optional<Vector3d>, 2> lines{line_at(now[0], n), line_at(now[1], n)};
   if (lines[0] && lines[1]) {
     const double cosine = lines[0]->dot(*lines[1]);
     const double square = 1.0 - cosine * cosine;  // Of the sine.
@@ -173,9 +169,7 @@ std::array<Vector3d, 2> ways_to_meet(const ManifoldPoint& touch,
       ways[0] = (along_A - cosine * along_B) / square * *lines[0];
       ways[1] = (cosine * along_A - along_B) / square * *lines[1];
     }
-    return ways;
-  }
-  if (lines[0] && !now[1].is_face) {
+  } else if (lines[0] && !now[1].is_face) {
     ways[0] = lines[0]->dot(apart) * *lines[0];
   } else if (lines[1] && !now[0].is_face) {
     ways[1] = -lines[1]->dot(apart) * *lines[1];
@@ -295,9 +289,16 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
     }
   }
   const Vector3d between = apart + arms[1] - centres[1] - (arms[0] - centres[0]);
-  const std::array<Vector3d, 2> ways = ways_to_meet(touch, sides, now, by, n_there, between);
+  const auto left_by = [&](std::size_t s) -> Vector3d {
+    const Vector3d& arm = s == 0 ? contact.arm_A : contact.arm_B;
+    return time * (sides[s].v + sides[s].w.cross(now[s].centre)) + arms[s] - centres[s] -
+           (arm - now[s].centre);
+  };
+  // By velocities, not by places: points that stick to each other stay the same points.
+  const std::array<Vector3d, 2> ways =
+      ways_to_meet(touch, sides, now, n, across(left_by(1) - left_by(0), n));
   for (std::size_t s = 0; s < 2; ++s) {
-    arms[s] += ways[s];
+    arms[s] += by[s] * ways[s];
   }
   return {arms, contact.frame * turn_of_frame.transpose(), n_there.dot(between)};
 }
