@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <firstcontact/record/read_run.h>
+#include <firstcontact/record/same_run.h>
 #include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/simulation_duration.h>
 
@@ -36,17 +37,19 @@ std::size_t count_lines(std::istream& stream) {
 std::string describe_held(const std::string& path, const RunHeader& header, bool resumes) {
   constexpr const char* kReplace = "replace it with --force, or give another file";
   std::ifstream stream(path, std::ios::binary);
+  std::string first;
+  std::getline(stream, first);
+  stream.seekg(0);
+  const bool is_same = is_header_line_of(first, header);
   try {
-    const RunReader run(stream, path);
-    const RunHeader& held = run.header();
-    const std::size_t whole = simulation_step_count(held.scene.simulation.value());
+    const RunReader run = is_same ? RunReader(stream, path, header) : RunReader(stream, path);
+    const std::size_t whole = simulation_step_count(run.header().scene.simulation.value());
     stream.clear();
     stream.seekg(0);
     const std::size_t steps = count_lines(stream) - 1;
     if (steps >= whole) {
       return fmt::format("holds a finished run; {}", kReplace);
     }
-    const bool is_same = write_run_header(held) == write_run_header(header);
     return fmt::format("holds an unfinished run{}, {} of {} steps; {}{}",
                        is_same ? "" : " of another scene or with other options", steps, whole,
                        is_same && resumes ? "go on with --resume, " : "", kReplace);
@@ -90,18 +93,17 @@ RunFile RunFile::resume(const std::string& path, const RunHeader& header,
     std::ifstream stream(path, std::ios::binary);
     std::string first;
     std::getline(stream, first);
-    const std::string expected = write_run_header(header);
-    if (stream.eof() && expected.starts_with(first)) {
+    if (stream.eof() && write_run_header(header).starts_with(first)) {
       return {path, header};  // The run was killed before the header was whole.
     }
-    if (first + '\n' != expected) {
+    if (stream.eof() || !is_header_line_of(first, header)) {
       throw std::invalid_argument(
           path +
           ": holds a run of another scene, with other options or of another version; replace it "
           "with --force in place of --resume, or give another file");
     }
     stream.seekg(0);
-    RunReader run(stream, path);
+    RunReader run(stream, path, header);
     while (std::optional<RunStep> step = run.next()) {
       each(*step);
       last = std::move(step);

@@ -309,6 +309,68 @@ class Simulate(ToolTest):
         self.assertIn("--resume", done.stderr)
         self.assertEqual(run.read_bytes(), before)
 
+    def robot_scene(self, mass: str = "1") -> dict[str, str]:
+        """Files of a scene whose body, robot and link are files of their own, by name."""
+        tetrahedron = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+        urdf = (f'<robot name="r"><link name="base"/><link name="arm"><inertial><mass value="{mass}"/>'
+                '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+                '<collision><geometry><mesh filename="arm.obj"/></geometry></collision></link>'
+                '<joint name="turn" type="continuous"><parent link="base"/><child link="arm"/>'
+                '<origin xyz="1 0 1"/><axis xyz="0 1 0"/></joint></robot>')
+        scene = {"firstcontact": 1, "simulation": {"duration": 0.05, "step": 0.01},
+                 "bodies": [{"name": "stone", "shape": {"mesh": "stone.obj"}, "pose": {"position": [0, 0, 1]},
+                             "dynamics": {}},
+                            {"name": "hull", "shape": {"convex_hull": {"mesh": "stone.obj"}}}],
+                 "robots": [{"name": "r", "urdf": "r.urdf", "srdf": "r.srdf", "package_roots": ["."], "dynamics": {}}]}
+        return {"stone.obj": tetrahedron, "arm.obj": tetrahedron, "r.urdf": urdf, "r.srdf": '<robot name="r"/>',
+                "scene.json": json.dumps(scene)}
+
+    def test_goes_on_however_its_paths_are_spelled(self):
+        (self.folder / "scenes").mkdir()
+        (self.folder / "other" / "place").mkdir(parents=True)
+        for name, content in self.robot_scene().items():
+            self.file("scenes/" + name, content)
+        (self.folder / "scenes" / "also.json").symlink_to("scene.json")
+        (self.folder / "linked").symlink_to("scenes")
+        run = self.folder / "run.jsonl"
+        spelled = ["scenes/scene.json", "./scenes/scene.json", "other/../scenes/scene.json", "scenes/also.json",
+                   "linked/scene.json", str(self.folder / "scenes" / "scene.json")]
+        for first in spelled:
+            done = self.run_tool("simulate", first, "-o", str(run), "--force")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            whole = run.read_bytes()
+            self.assertEqual(self.run_tool("verify", str(run)).returncode, 0)
+            cut = b"".join(whole.splitlines(keepends=True)[:3])
+            for folder, second in [(self.folder, path) for path in spelled] + [
+                    (self.folder / "scenes", "scene.json"), (self.folder / "other" / "place", "../../scenes/scene.json")]:
+                run.write_bytes(cut)
+                kept = subprocess.run([TOOL, "simulate", second, "-o", str(run)], cwd=folder, capture_output=True,
+                                      text=True, timeout=120, check=False)
+                self.assertIn("2 of 5 steps; go on with --resume", kept.stderr)
+                done = subprocess.run([TOOL, "simulate", second, "-o", str(run), "--resume"], cwd=folder,
+                                      capture_output=True, text=True, timeout=120, check=False)
+                self.assertEqual(done.returncode, 0, (first, second, done.stderr))
+                self.assertEqual(run.read_bytes(), whole)
+                self.assertEqual(self.run_tool("verify", str(run)).returncode, 0)
+
+    def test_refuses_to_go_on_with_other_contents_of_its_files(self):
+        files = self.robot_scene()
+        for name, content in files.items():
+            self.file(name, content)
+        run = self.folder / "run.jsonl"
+        self.assertEqual(self.run_tool("simulate", "scene.json", "-o", "run.jsonl").returncode, 0)
+        cut = b"".join(run.read_bytes().splitlines(keepends=True)[:3])
+        run.write_bytes(cut)
+        changed = {"stone.obj": files["stone.obj"] + "# changed\n", "arm.obj": files["arm.obj"] + "# changed\n",
+                   "r.urdf": self.robot_scene(mass="2")["r.urdf"], "r.srdf": '<robot name="r"><!-- changed --></robot>',
+                   "scene.json": files["scene.json"] + "\n"}
+        for name, content in changed.items():
+            self.file(name, content)
+            done = self.run_tool("simulate", "./scene.json", "-o", "run.jsonl", "--resume")
+            self.assert_refused_with(done, "run.jsonl: holds a run of another scene")
+            self.assertEqual(run.read_bytes(), cut)
+            self.file(name, files[name])
+
     def test_replaces_a_run_only_when_told_to(self):
         scene, run = self.scene(self.SCENE), self.folder / "run.jsonl"
         self.run_tool("simulate", scene, "-o", str(run))

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/record/read_run.h>
+#include <firstcontact/record/same_run.h>
 #include <firstcontact/record/write_run.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
@@ -154,6 +155,66 @@ TEST(RunFile, ReadsBackBitForBit) {
   EXPECT_EQ(again, text);
   EXPECT_FALSE(reader.is_cut_off());
   EXPECT_EQ(reader.size(), text.size());
+}
+
+/// A header of a scene whose shapes are files in a folder.
+RunHeader header_of_files(const std::string& folder) {
+  RunHeader header = example_header();
+  std::vector<Body>& bodies = header.scene.bodies;
+  bodies.resize(4, bodies[0]);
+  bodies[0].shape.source = MeshFile{.path = folder + "/m.obj"};
+  bodies[1].shape.source = ConvexHullShape{.of = MeshFile{.path = folder + "/m.obj"}};
+  bodies[2].shape.source = PointFile{.path = folder + "/p.xyz"};
+  bodies[3].shape.source = HeightFile{.path = folder + "/h.csv", .cell = {1.0, 1.0}};
+  return header;
+}
+
+std::string line_of(const RunHeader& header) {
+  std::string line = write_run_header(header);
+  line.pop_back();
+  return line;
+}
+
+TEST(RunFile, IsTheSameByOtherPaths) {
+  const RunHeader header = header_of_files("scenes");
+  EXPECT_TRUE(is_header_line_of(line_of(header), header));
+  EXPECT_TRUE(is_header_line_of(line_of(header_of_files("/home/me/scenes")), header));
+}
+
+TEST(RunFile, IsAnotherByAnythingElse) {
+  const RunHeader header = header_of_files("scenes");
+  RunHeader other = header_of_files("/home/me/scenes");
+  other.input_digest[63] = 'b';
+  EXPECT_FALSE(is_header_line_of(line_of(other), header));
+  other = header_of_files("/home/me/scenes");
+  other.version = "0.1.1";
+  EXPECT_FALSE(is_header_line_of(line_of(other), header));
+  other = header_of_files("/home/me/scenes");
+  other.scene.bodies[2].shape.radius = 0.1;
+  EXPECT_FALSE(is_header_line_of(line_of(other), header));
+  other = header_of_files("/home/me/scenes");
+  std::swap(other.scene.bodies[0], other.scene.bodies[1]);
+  EXPECT_FALSE(is_header_line_of(line_of(other), header));
+}
+
+TEST(RunFile, IsNoHeaderWhereALineIsNone) {
+  const RunHeader header = example_header();
+  const std::string line = line_of(header);
+  for (const std::string& other :
+       {std::string(), std::string("{}"), std::string("[1]"), std::string(R"({"scene": 1})"),
+        line.substr(0, line.size() - 1), line + "x"}) {
+    EXPECT_FALSE(is_header_line_of(other, header)) << other;
+  }
+}
+
+// The files of the other spelling need not be there.
+TEST(RunFile, IsReadWithItsKnownHeader) {
+  std::istringstream stream(write_run_header(header_of_files("nowhere")));
+  RunReader reader(stream, "run.jsonl", example_header());
+  EXPECT_EQ(reader.header().masses, example_header().masses);
+  EXPECT_EQ(reader.size(), write_run_header(header_of_files("nowhere")).size());
+  std::istringstream none("{");
+  EXPECT_THROW(RunReader(none, "run.jsonl", example_header()), ParseError);
 }
 
 TEST(RunFile, KeepsItsScene) {

@@ -391,12 +391,22 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std:
 
 RunReader::RunReader(std::istream& run, std::string path, const ReadingOptions& options)
     : stream_(run), path_(std::move(path)) {
-  const std::optional<std::string> line = next_line();
+  header_ = read_header(header_line(), path_, options);
+  bodies_ = header_.masses.size();
+}
+
+RunReader::RunReader(std::istream& run, std::string path, RunHeader header)
+    : stream_(run), path_(std::move(path)), header_(std::move(header)) {
+  (void)header_line();
+  bodies_ = header_.masses.size();
+}
+
+std::string RunReader::header_line() {
+  std::optional<std::string> line = next_line();
   if (!line) {
     throw ParseError(path_, 1, "expected the header of a run, got no whole line");
   }
-  header_ = read_header(*line, path_, options);
-  bodies_ = header_.masses.size();
+  return std::move(*line);
 }
 
 std::optional<RunStep> RunReader::next() {

@@ -29,6 +29,12 @@ class FIRSTCONTACT_API RunReader {
   /// @throws ParseError if there is no header
   RunReader(std::istream& run, std::string path, const ReadingOptions& options = {});
 
+  /// Passes over the header of a run, where it is known. The files that it names are not opened.
+  ///
+  /// @param header  of the run, see is_header_line_of()
+  /// @throws ParseError if there is no header
+  RunReader(std::istream& run, std::string path, RunHeader header);
+
   [[nodiscard]] const RunHeader& header() const { return header_; }
 
   /// Reads the next step; none at the end of the run.
@@ -47,6 +53,7 @@ class FIRSTCONTACT_API RunReader {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
+  std::string header_line();
   std::optional<std::string> next_line();
 
   std::istream& stream_;
