@@ -1,10 +1,13 @@
 // The laws of impacts at the same time, and surfaces that run along their bodies.
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include "simulation/simulated_run.h"
 
@@ -17,6 +20,7 @@ using test::ball;
 using test::body;
 using test::box;
 using test::kFloor;
+using test::number_text;
 using test::numbers;
 using test::run;
 using test::settings;
@@ -72,6 +76,99 @@ TEST(ImpactLaw, SimultaneousImpactsShareTheHit) {
   const std::vector<double> v = cradle(1, 1.0, R"(, "impacts": "simultaneous")");
   EXPECT_LT(v[0], -0.1);
   EXPECT_NEAR(v[4], v[5], 1e-6);
+}
+
+/// A ball of 0.1 m at a place with a velocity.
+std::string moving_ball(const std::string& name, const std::vector<double>& at,
+                        const std::vector<double>& velocity, double mass = 1.0) {
+  return body(name, ball("0.1"), numbers(at),
+              R"(, "dynamics": {"mass": )" + number_text(mass) + R"(, "linear_velocity": )" +
+                  numbers(velocity) + "}");
+}
+
+/// The bodies that a scene lists in this order, joined.
+std::string joined(const std::vector<std::string>& bodies) {
+  std::string all;
+  for (const std::string& one : bodies) {
+    all += (all.empty() ? "" : ", ") + one;
+  }
+  return all;
+}
+
+/// The velocities of bodies after 0.4 s without gravity.
+std::vector<Eigen::Vector3d> velocities_after(const std::vector<std::string>& bodies,
+                                              double friction, double restitution) {
+  Simulator s = simulator(joined(bodies), settings(0.01, friction, 1e-5) +
+                                              R"(, "gravity": [0, 0, 0], "restitution": )" +
+                                              number_text(restitution));
+  std::vector<Eigen::Vector3d> velocities(bodies.size());
+  for (const RunStep& step : run(s, 40)) {
+    for (const RunBody& body : step.bodies) {
+      velocities[body.body] = body.linear_velocity;
+    }
+  }
+  return velocities;
+}
+
+// A ball hits two balls that touch it at the same time, 30 degrees to either side. Newton's law for
+// both: p = 2 cos 30 / (1 + 2 cos^2 30) = 0.6928 N s each.
+TEST(ImpactLaw, ACueBallPartsTwoBallsAlike) {
+  const double x = 0.20001 * std::cos(std::numbers::pi / 6.0);
+  const std::string cue = moving_ball("cue", {-0.05, 0, 0}, {1, 0, 0});
+  const std::string left = moving_ball("left", {x, 0.100005, 0}, {0, 0, 0});
+  const std::string right = moving_ball("right", {x, -0.100005, 0}, {0, 0, 0});
+  for (const std::vector<std::string>& bodies :
+       {std::vector{cue, left, right}, std::vector{cue, right, left}}) {
+    const std::vector<Eigen::Vector3d> v = velocities_after(bodies, 0.0, 1.0);
+    const double side = bodies[1] == left ? 1.0 : -1.0;
+    EXPECT_NEAR((v[0] - Eigen::Vector3d(-0.2, 0, 0)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((v[1] - Eigen::Vector3d(0.6, side * 0.6 / std::sqrt(3.0), 0)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((v[2] - Eigen::Vector3d(0.6, -side * 0.6 / std::sqrt(3.0), 0)).norm(), 0.0, 1e-6);
+  }
+}
+
+// Mirrored scenes stay mirrored, however the scene lists them: with friction, and where heavy balls
+// make impacts travel faster and faster towards the middle.
+TEST(ImpactLaw, AMirroredHitStaysMirrored) {
+  const std::string heavy_left = moving_ball("heavy left", {-0.85, 0, 0}, {2, 0, 0}, 4.0);
+  const std::string left = moving_ball("left", {-0.40002, 0, 0}, {0, 0, 0});
+  const std::string next_left = moving_ball("next left", {-0.20001, 0, 0}, {0, 0, 0}, 0.5);
+  const std::string middle = moving_ball("middle", {0, 0, 0}, {0, 0, 0});
+  const std::string next_right = moving_ball("next right", {0.20001, 0, 0}, {0, 0, 0}, 0.5);
+  const std::string right = moving_ball("right", {0.40002, 0, 0}, {0, 0, 0});
+  const std::string heavy_right = moving_ball("heavy right", {0.85, 0, 0}, {-2, 0, 0}, 4.0);
+  for (const double restitution : {0.9, 1.0}) {
+    const std::vector<Eigen::Vector3d> v = velocities_after(
+        {heavy_left, left, next_left, middle, heavy_right, right, next_right}, 0.3, restitution);
+    EXPECT_NEAR(v[3].norm(), 0.0, 1e-6);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR((v[k] + v[k + 4]).norm(), 0.0, 1e-6) << k;
+      EXPECT_LE(v[k].x(), 1e-6) << k;
+    }
+  }
+}
+
+// The plank rests on its pivot without bouncing, and holds there while both balls bounce.
+TEST(ImpactLaw, ASeesawThatIsHitOnBothEndsStaysLevel) {
+  const std::string plank = body("plank", box("[2, 0.2, 0.04]"), "[0, 0, 0.02001]",
+                                 R"(, "dynamics": {"mass": 1, "restitution": 0})");
+  const std::string pivot = body("pivot", box("[0.1, 0.3, 1]"), "[0, 0, -0.5]");
+  const std::string left = moving_ball("left", {-0.9, 0, 0.3}, {0, 0, -1});
+  const std::string right = moving_ball("right", {0.9, 0, 0.3}, {0, 0, -1});
+  for (const auto& bodies :
+       {std::vector{plank, pivot, left, right}, std::vector{right, plank, left, pivot}}) {
+    Simulator s = simulator(joined(bodies), settings(0.005, 0.3, 1e-5) + R"(, "pairs": [
+        {"bodies": ["plank", "left"], "restitution": 0.5},
+        {"bodies": ["plank", "right"], "restitution": 0.5}])");
+    const std::size_t at = bodies[0] == plank ? 0 : 1;
+    for (const RunStep& step : run(s, 60)) {
+      for (const RunBody& body : step.bodies) {
+        if (body.body == at) {
+          EXPECT_NEAR(body.angular_velocity.norm(), 0.0, 1e-6) << step.index;
+        }
+      }
+    }
+  }
 }
 
 TEST(Belt, CarriesABlockUpToItsSpeed) {

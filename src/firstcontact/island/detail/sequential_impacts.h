@@ -14,7 +14,9 @@ struct IslandState;
 
 /// Computes the velocities after an impact in which pairs answer one after another.
 ///
-/// The pair that closes fastest is next, by project_impact(). This goes on until no pair closes
+/// The pair that closes fastest is next, by project_impact(). Pairs that close as fast, to one part
+/// in a million, answer at the same time. Where they move the same body, project_impact() takes
+/// them together. So the order of pairs changes nothing. This goes on until no pair closes
 /// faster than an impact that does not bounce, or faster than a very small speed. Then all contacts
 /// together hold the pairs that still close. Pairs without restitution have no turn: they hold in
 /// each answer, as if they were one body.

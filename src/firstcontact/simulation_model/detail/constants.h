@@ -108,6 +108,9 @@ inline constexpr double kStepsWithoutBounce = 2.0;
 inline constexpr std::size_t kAnswersOfPair = 100;
 /// [-]  The sequence ends where all pairs close more slowly than this part of the fastest impact.
 inline constexpr double kSlowOfFirst = 1e-6;
+/// [-]  Pairs that close within this part of the fastest one answer with it. It is above what
+/// rounding and tolerances leave of a symmetry. Smaller: the order in the scene decides.
+inline constexpr double kEquallyFast = 1e-6;
 /// [-]  A predicted contact is slight if the bodies approach by less than this over the plan and
 /// would not bounce; by the radius of the smaller body. It becomes a constraint. Larger: fewer
 /// impacts, and more motion that is not straight.
