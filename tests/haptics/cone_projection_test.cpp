@@ -54,7 +54,7 @@ std::vector<HapticContact> random_contacts(std::mt19937& rng, int count, double 
 ConeProjection projection_of(const std::vector<HapticContact>& contacts) {
   ConeProjection cone(6, contacts.size());
   for (const HapticContact& contact : contacts) {
-    cone.add(cone_contact(contact, one_tool(), 0.0));
+    cone.add(cone_contact(contact, one_tool()));
   }
   return cone;
 }
@@ -76,7 +76,7 @@ Vector6d by_enumeration(const std::vector<HapticContact>& contacts, const Vector
   Eigen::MatrixXd rows(count, 6);
   Eigen::VectorXd least(count);
   for (int k = 0; k < count; ++k) {
-    const ConeContact cone = cone_contact(contacts[static_cast<std::size_t>(k)], one_tool(), 0.0);
+    const ConeContact cone = cone_contact(contacts[static_cast<std::size_t>(k)], one_tool());
     rows.row(k) = as_vector(cone.rows[0]).transpose();
     least[k] = -cone.way;
   }
@@ -219,8 +219,8 @@ TEST(ConeProjection, EndsWhereContactsContradictEachOther) {
   HapticContact down = up;
   down.normal = -Vector3d::UnitZ();
   ConeProjection cone(6, 2);
-  cone.add(cone_contact(up, one_tool(), 0.0));
-  ConeContact pushed = cone_contact(down, one_tool(), 0.0);
+  cone.add(cone_contact(up, one_tool()));
+  ConeContact pushed = cone_contact(down, one_tool());
   pushed.shift[0] = 1.0;  // The ceiling comes down by a metre.
   cone.add(pushed);
   const ConeProjectionResult found = cone.project({0.0, 0.0, 0.1}, 1e-9, 64);

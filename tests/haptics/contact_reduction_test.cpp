@@ -50,7 +50,7 @@ std::vector<HapticContact> thread_contacts(int count, double friction, bool both
 }
 
 Vector6d row(const HapticContact& contact, const ToolFrames& frames) {
-  return Eigen::Map<const Vector6d>(cone_contact(contact, frames, 0.0).rows[0].data());
+  return Eigen::Map<const Vector6d>(cone_contact(contact, frames).rows[0].data());
 }
 
 class Reductions : public testing::TestWithParam<bool> {};
@@ -63,7 +63,7 @@ TEST_P(Reductions, LeaveOtherContactsByNoMoreThanTheirAngle) {
   EXPECT_LT(reduced.angle, 0.3);
   ConeProjection few(6, reduced.kept.size());
   for (const std::size_t k : reduced.kept) {
-    ConeContact cone = cone_contact(contacts[k], frames, 0.0);
+    ConeContact cone = cone_contact(contacts[k], frames);
     few.add(cone);
   }
   std::mt19937 rng(4);
@@ -97,11 +97,11 @@ TEST(Reduction, ChangesProjectionsLittle) {
   const ReducedContacts reduced = reduce_contacts(contacts, frames, 1, 0.0175, 128);
   ConeProjection all(6, contacts.size());
   for (const HapticContact& contact : contacts) {
-    all.add(cone_contact(contact, frames, 0.0));
+    all.add(cone_contact(contact, frames));
   }
   ConeProjection few(6, 128);
   for (const std::size_t k : reduced.kept) {
-    few.add(cone_contact(contacts[k], frames, 0.0));
+    few.add(cone_contact(contacts[k], frames));
   }
   std::mt19937 rng(5);
   std::normal_distribution<double> normal;
@@ -142,7 +142,7 @@ TEST(Reduction, KeepsANormalThatOnlyFrictionSpans) {
 std::vector<Vector6d> unit_rows(const std::vector<HapticContact>& contacts, bool edges) {
   std::vector<Vector6d> found;
   for (const HapticContact& contact : contacts) {
-    const ConeContact cone = cone_contact(contact, bolt_frames(), 0.0);
+    const ConeContact cone = cone_contact(contact, bolt_frames());
     const auto row_of = [&](std::size_t k) -> Vector6d {
       return Eigen::Map<const Vector6d>(cone.rows[k].data());
     };

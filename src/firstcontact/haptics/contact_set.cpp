@@ -57,6 +57,7 @@ std::uint64_t checksum_of(const HapticContactSet& set) noexcept {
     mixer.add(contact.way);
     mixer.add(contact.friction);
     mixer.add(contact.surface_velocity);
+    mixer.add(std::uint64_t{contact.slides});
     mixer.add((word_of(contact.link) << 32) | word_of(contact.other_link));
   }
   mixer.add((std::uint64_t{set.joint_count} << 32) | set.link_count);

@@ -44,6 +44,9 @@ struct HapticContact {
   double friction = 0.0;  ///< [-]  Coulomb's coefficient; >= 0.
   /// [m/s]  Velocity of the point of the environment; 0 for the other tool.
   Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();
+  /// Whether the tool slid on a body with a course when the cycle ended, rather than being carried
+  /// along by it. False for other contacts.
+  bool slides = false;
   std::int32_t link = -1;  ///< The link, among the links of all tools; -1: the body of the tool.
   std::int32_t other_link = -1;  ///< The link of the other tool, likewise.
 };

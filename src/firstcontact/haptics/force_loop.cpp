@@ -222,7 +222,7 @@ class ForceLoop::Implementation {
     frames_.axes = set.axes;
     frames_.joints = set.joints;
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      cone_.add(detail::cone_contact(set.contacts[c], frames_, 0.0));
+      cone_.add(detail::cone_contact(set.contacts[c], frames_));
     }
     if (set.count == 0) {
       return;
@@ -279,8 +279,12 @@ class ForceLoop::Implementation {
     for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
       const HapticContact& contact = set.contacts[c];
       if (contact.surface_velocity != Vector3d::Zero()) {
-        cone_.set_shift(c,
-                        detail::cone_contact(contact, frames_, felt_after(contact, seconds)).shift);
+        // A tool that slides stays while the surface moves on, from where the device was at the
+        // stamp. One that is carried along goes back with the surface.
+        const double lasted = kNanosecond * static_cast<double>(set.lasted_ns);
+        const double along = contact.slides ? seconds + lasted : seconds;
+        cone_.set_shift(c, detail::shift_of_surface(contact, felt_after(contact, seconds),
+                                                    felt_after(contact, along)));
       }
     }
     Coordinates wanted{};

@@ -58,6 +58,9 @@ inline constexpr double kSlackOfRoom = 0.1;
 inline constexpr double kShareWithoutRoom = 0.25;
 /// [-]  ...down to this fraction of it. Below it they wait until the cycle ends.
 inline constexpr double kLeastShareOfCourses = 0.02;
+/// [-]  A tool that slides at least this far in a cycle, at the rate of its last round, slides on
+/// the body; else the body carries it along. Residuals of a plan are smaller.
+inline constexpr double kSlideOfCycle = 0.1;
 /// [-]  The fraction of a round for a course that bends away from each of 10,000 straight lines.
 inline constexpr double kShareOfWildCourse = 1e-4;
 /// [-]  The least rest of a round, after the courses are over, that counts as time of its own.

@@ -81,8 +81,13 @@ Eigen::Matrix3d contact_axes(const Vector3d& normal) noexcept {
   return axes;
 }
 
-ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
-                         double seconds) noexcept {
+std::array<double, 3> shift_of_surface(const HapticContact& contact, double along_normal,
+                                       double along_tangents) noexcept {
+  const Vector3d velocity = contact_axes(contact.normal) * contact.surface_velocity;
+  return {along_normal * velocity[0], along_tangents * velocity[1], along_tangents * velocity[2]};
+}
+
+ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames) noexcept {
   ConeContact cone{.way = contact.way, .friction = contact.friction};
   const Eigen::Matrix3d axes = contact_axes(contact.normal);
   const auto tool = static_cast<std::size_t>(contact.tool);
@@ -97,7 +102,6 @@ ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
     }
     add_joint_rows(axis, contact.point, frames, 1.0, contact.link, cone.rows[k]);
     add_joint_rows(axis, contact.point, frames, -1.0, contact.other_link, cone.rows[k]);
-    cone.shift[k] = seconds * axis.dot(contact.surface_velocity);
   }
   return cone;
 }

@@ -41,9 +41,17 @@ void weigh_joints(const ToolLinks& links, double stiffness_of_first_tool, ToolFr
 
 /// Computes the rows of a contact. Its normal and two tangents make a rotation.
 ///
-/// @param seconds  for which the environment has moved on since the contact was found
-[[nodiscard]] ConeContact cone_contact(const HapticContact& contact, const ToolFrames& frames,
-                                       double seconds) noexcept;
+/// The surface is where the contact was found.
+[[nodiscard]] ConeContact cone_contact(const HapticContact& contact,
+                                       const ToolFrames& frames) noexcept;
+
+/// [m]  Computes the shift of the surface of a contact (ConeContact::shift).
+///
+/// @param along_normal  [s]  time for which it has moved on along the normal...
+/// @param along_tangents  [s]  ...and along the tangents
+[[nodiscard]] std::array<double, 3> shift_of_surface(const HapticContact& contact,
+                                                     double along_normal,
+                                                     double along_tangents) noexcept;
 
 /// Makes the constraint that keeps a joint within a limit.
 ///

@@ -156,6 +156,7 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   cycle_.is_late = false;
   cycle_.residual = 0.0;
   cycle_.members.clear();
+  last_on_courses_.clear();
   are_courses_moving_ = false;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!stands(m)) {
@@ -198,24 +199,53 @@ double ContactLoop::Implementation::size_of_cycle() const {
   return size;
 }
 
+/// Notes which contacts with bodies that have courses slide in a round.
+void ContactLoop::Implementation::note_sliding(const detail::GodObjectPlan& plan,
+                                               double part_of_cycle) {
+  last_on_courses_.clear();
+  for (const detail::PlannedTouch& touch : planned_) {
+    const HapticContact& contact = *touch.contact;
+    if (contact.body < 0 || !has_course(tools() + static_cast<std::size_t>(contact.body))) {
+      continue;
+    }
+    const Vector3d u = detail::displacement_at(touch, plan.displacements, frames_);
+    const double slip = (u - contact.normal.dot(u) * contact.normal).norm();
+    last_on_courses_.push_back(contact);
+    last_on_courses_.back().slides = slip > detail::kSlideOfCycle * distance_ * part_of_cycle;
+  }
+}
+
+/// Sets the velocity of a body with a course at a contact, and whether the tool slides there.
+void ContactLoop::Implementation::set_surface(HapticContact& contact, double dt) const {
+  const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
+  contact.surface_velocity.setZero();
+  for (const HapticMemberMotion& motion : cycle_.members) {
+    if (motion.member == member && !motion.pieces.empty()) {
+      // The velocity in this cycle, waiting included; the body may have turned several times.
+      Displacement way{.translation =
+                           poses_[member].position - motion.pieces.front().X_WB.position};
+      for (const HapticPiece& piece : motion.pieces) {
+        way.rotation_vector += piece.rotation_vector;
+      }
+      contact.surface_velocity = way.at(contact.point - poses_[member].position) / dt;
+    }
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const HapticContact& before : last_on_courses_) {
+    const double apart = (before.point - contact.point).norm();
+    if (before.tool == contact.tool && before.link == contact.link && before.body == contact.body &&
+        apart < nearest) {
+      nearest = apart;
+      contact.slides = before.slides;
+    }
+  }
+}
+
 void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
   find_contacts();
   for (HapticTouch& touch : touches_) {
-    HapticContact& contact = touch.contact;
-    if (contact.body >= 0) {
-      const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
-      contact.surface_velocity.setZero();
-      for (const HapticMemberMotion& motion : cycle_.members) {
-        if (motion.member == member && !motion.pieces.empty()) {
-          // The velocity in this cycle, waiting included; the body may have turned several times.
-          Displacement way{.translation =
-                               poses_[member].position - motion.pieces.front().X_WB.position};
-          for (const HapticPiece& piece : motion.pieces) {
-            way.rotation_vector += piece.rotation_vector;
-          }
-          contact.surface_velocity = way.at(contact.point - poses_[member].position) / dt;
-        }
-      }
+    if (touch.contact.body >= 0) {
+      set_surface(touch.contact, dt);
     }
   }
   cycle_.lasted = wait_from_.value_or(dt);
@@ -290,7 +320,8 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
   const double share = are_courses_moving_ ? share_of_courses_ : 1.0;
   double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
   set_courses(slot);
-  const detail::ToolDisplacements ways = wanted(targets);
+  const detail::ToolDisplacements ways =
+      wanted(targets, are_courses_moving_ && slot < left && !is_last ? (now_ + slot) / dt : 1.0);
   detail::GodObjectPlan plan = plan_round(ways);
   const bool is_worth = gains(plan, ways);
   if (!is_worth && !are_courses_moving_) {
@@ -312,6 +343,7 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
     slot *= plan.part;
     set_courses(slot);
   }
+  note_sliding(plan, slot / dt);
   const double made = execute(plan, slot, dt, deadline);
   return goes_on_after(plan, made, slot == left);
 }
@@ -331,6 +363,8 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
     goes_on = make_round(targets, dt, deadline);
   }
   rest_until(dt);
+  last_targets_.assign(targets.poses.begin(), targets.poses.end());
+  last_joint_targets_.assign(targets.joints.begin(), targets.joints.end());
   end_cycle(dt, stamp_ns);
   return cycle_;
 }

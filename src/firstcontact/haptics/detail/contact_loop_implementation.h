@@ -86,7 +86,7 @@ class ContactLoop::Implementation {
   [[nodiscard]] double part_within_turn(const detail::ToolDisplacements& ways) const;
   void set_link_motions(const detail::ToolDisplacements& ways);
   void begin_cycle(double dt);
-  [[nodiscard]] detail::ToolDisplacements wanted(const HapticTargets& targets) const;
+  [[nodiscard]] detail::ToolDisplacements wanted(const HapticTargets& targets, double part) const;
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
   [[nodiscard]] double straight_slot(double slot) const;
   void set_courses(double slot);
@@ -112,6 +112,8 @@ class ContactLoop::Implementation {
                                 const std::optional<Deadline>& deadline);
   void begin_wait();
   void rest_until(double dt);
+  void note_sliding(const detail::GodObjectPlan& plan, double part_of_cycle);
+  void set_surface(HapticContact& contact, double dt) const;
   void end_cycle(double dt, std::int64_t stamp_ns);
   void publish(std::int64_t stamp_ns);
   [[nodiscard]] double size_of_cycle() const;
@@ -140,6 +142,10 @@ class ContactLoop::Implementation {
   std::vector<HapticTouch> touches_;
   std::vector<detail::PlannedTouch> planned_;
   detail::LastRound last_round_;
+  // Targets of the last cycle; empty before.
+  std::vector<Pose> last_targets_;
+  std::vector<double> last_joint_targets_;
+  std::vector<HapticContact> last_on_courses_;  // Contacts of the last round with such bodies.
   std::vector<HapticTouch> left_;  // Touches of the last round, where the plan turned back.
   detail::ToolFrames frames_;
   bool may_part_ = true;         // False after a plan to part was in vain in this cycle.

@@ -11,18 +11,32 @@
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_loop_implementation.h>
 #include <firstcontact/haptics/detail/contact_reduction.h>
+#include <firstcontact/haptics/detail/target_follower.h>
 
 namespace firstcontact {
 
-detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTargets& targets) const {
+/// Computes the displacements to the targets, or to a fraction of the way from the targets of the
+/// last cycle to these. So hands and courses move at the same time.
+detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTargets& targets,
+                                                              double part) const {
+  const double back = last_targets_.empty() ? 0.0 : 1.0 - part;
   detail::ToolDisplacements ways;
   for (std::size_t k = 0; k < targets.joints.size(); ++k) {
     const HapticJoint& joint = links_.joints()[k];
-    ways.joints[k] = std::clamp(targets.joints[k], joint.lower, joint.upper) - joints_[k];
+    const double before = last_joint_targets_.empty() ? targets.joints[k] : last_joint_targets_[k];
+    const double target = targets.joints[k] + back * (before - targets.joints[k]);
+    ways.joints[k] = std::clamp(target, joint.lower, joint.upper) - joints_[k];
   }
   for (std::size_t k = 0; k < tools(); ++k) {
-    const Eigen::Quaterniond R_WB = targets.poses[k].rotation.normalized();
-    ways[k].translation = targets.poses[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
+    const Vector3d& p_BC = scene_.tools[k].p_BC;
+    Eigen::Quaterniond R_WB = targets.poses[k].rotation.normalized();
+    Vector3d target = targets.poses[k].position + R_WB * p_BC;
+    if (back > 0.0) {
+      const Eigen::Quaterniond before = last_targets_[k].rotation.normalized();
+      target += back * (last_targets_[k].position + before * p_BC - target);
+      R_WB = detail::turn_by(back * detail::turn_between(R_WB, before)) * R_WB;
+    }
+    ways[k].translation = target - centre(k);
     ways[k].rotation_vector = detail::turn_between(poses_[k].rotation, R_WB);
   }
   return ways;

@@ -38,7 +38,7 @@ Coordinates unit(Coordinates row, std::size_t n) {
 }
 
 ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std::size_t n) {
-  const ConeContact cone = cone_contact(contact, frames, 0.0);
+  const ConeContact cone = cone_contact(contact, frames);
   ContactRows rows;
   rows.normal = unit(cone.rows[0], n);
   if (cone.friction == 0.0) {

@@ -185,7 +185,7 @@ bool plan_by_cuts(const ToolDisplacements& wanted, const ToolFrames& frames, std
   const std::size_t joints = frames.joint_count();
   ConeProjection cone(frames.coordinates(tools), touches.size() + 2 * joints);
   for (const PlannedTouch& touch : touches) {
-    ConeContact contact = cone_contact(*touch.contact, frames, 0.0);
+    ConeContact contact = cone_contact(*touch.contact, frames);
     const Vector3d surface = contact_axes(touch.contact->normal) * touch.surface;
     contact.shift = {surface.x(), surface.y(), surface.z()};
     contact.way = std::max(touch.way, least_way);
@@ -299,19 +299,26 @@ Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& 
   return 2.0 * std::atan2(sine, std::abs(turn.w())) / sine * half;
 }
 
+Vector3d displacement_at(const PlannedTouch& touch, const ToolDisplacements& ways,
+                         const ToolFrames& frames) {
+  const HapticContact& contact = *touch.contact;
+  const auto moved = [&](std::int32_t tool, std::int32_t link) -> Vector3d {
+    const auto k = static_cast<std::size_t>(tool);
+    return ways[k].at(contact.point - frames.p_WC[k]) +
+           way_by_joints(link, contact.point, ways, frames);
+  };
+  Vector3d u = moved(contact.tool, contact.link) - touch.surface;
+  if (contact.other >= 0) {
+    u -= moved(contact.other, contact.other_link);
+  }
+  return u;
+}
+
 bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
                  const std::vector<PlannedTouch>& touches, double slack) {
-  const auto moved = [&](std::int32_t tool, std::int32_t link, const Vector3d& point) -> Vector3d {
-    const auto k = static_cast<std::size_t>(tool);
-    return plan.displacements[k].at(point - frames.p_WC[k]) +
-           way_by_joints(link, point, plan.displacements, frames);
-  };
   return std::ranges::all_of(touches, [&](const PlannedTouch& touch) {
     const HapticContact& contact = *touch.contact;
-    Vector3d u = moved(contact.tool, contact.link, contact.point) - touch.surface;
-    if (contact.other >= 0) {
-      u -= moved(contact.other, contact.other_link, contact.point);
-    }
+    const Vector3d u = displacement_at(touch, plan.displacements, frames);
     constexpr double kNear = 5.0;            // In units of the slack.
     constexpr double kRoundingOfGap = 1e-6;  // In units of the gap.
     const double room = contact.gap > kNear * slack ? slack : kRoundingOfGap * contact.gap;

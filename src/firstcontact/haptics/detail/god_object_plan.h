@@ -74,6 +74,12 @@ struct GodObjectPlan {
                                              const std::vector<PlannedTouch>& touches,
                                              double residual);
 
+/// [m]  Computes the displacement of the tool at a touch relative to the other surface, to first
+/// order.
+[[nodiscard]] Eigen::Vector3d displacement_at(const PlannedTouch& touch,
+                                              const ToolDisplacements& ways,
+                                              const ToolFrames& frames);
+
 /// Whether a plan keeps its touches apart, to first order. No touch comes nearer by more than its
 /// `way`, or at all where it has none left. False where a moving environment leaves a tool no room.
 ///
