@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/haptics/detail/contact_coordinates.h>
+#include <firstcontact/haptics/detail/contact_forces.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/grip_follower.h>
 #include <firstcontact/haptics/detail/target_follower.h>
@@ -146,9 +147,8 @@ class ForceLoop::Implementation {
                  const ForceLoopOptions& options)
       : options_(options),
         links_(std::make_unique<detail::ToolLinks>(scene.tools)),
-        cone_(links_->coordinates(), kMostHapticContacts + 2 * links_->joints().size()) {
-    detail::weigh_joints(*links_, scene.tools[0].coupling.stiffness, frames_);
-    first_stiffness_ = scene.tools[0].coupling.stiffness;
+        contacts_(scene.tools, *links_, options),
+        first_stiffness_(scene.tools[0].coupling.stiffness) {
     tick_.joints = static_cast<std::uint32_t>(links_->joints().size());
     for (std::size_t joint = 0; joint < tick_.joints; ++joint) {
       tick_.joint_targets[joint] = links_->joints()[joint].start;
@@ -167,8 +167,6 @@ class ForceLoop::Implementation {
       felt.scale = mapping.scale;
       felt.R_DW = mapping.R_WD.conjugate();
       tools_.push_back(std::move(felt));
-      frames_.lengths[k] = std::sqrt(tool.coupling.angular_stiffness / tool.coupling.stiffness);
-      frames_.weights[k] = std::sqrt(tool.coupling.stiffness / scene.tools[0].coupling.stiffness);
       tick_.tools[k].target = start;
     }
   }
@@ -184,7 +182,10 @@ class ForceLoop::Implementation {
     tick_.set = set.sequence;
     tick_.age_ns = now_ns - set.stamp_ns;
     tick_.contacts = set.count;
-    take_set(set);
+    if (set.sequence != taken_) {
+      taken_ = set.sequence;
+      contacts_.take(set);
+    }
     for (std::size_t k = 0; k < tools_.size() && k < devices.size(); ++k) {
       ToolTick& tick = tick_.tools[k];
       tick.device = devices[k];
@@ -196,11 +197,12 @@ class ForceLoop::Implementation {
                              tick_.joint_targets);
       measure_velocity(tools_[k], seconds);
     }
-    const detail::ConeProjectionResult projected = project(set, now_ns);
+    const detail::ContactForce projected =
+        contacts_.project(set, wanted(set), seconds_since(set, now_ns));
     tick_.pressing = static_cast<std::uint32_t>(projected.pressing);
     tick_.pivots = static_cast<std::uint32_t>(projected.pivots);
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-      if (!projected.is_solved && cone_.size() > 0) {
+      if (!projected.is_solved[k]) {
         tick_.tools[k].faults |= bit(ForceFault::unsolved);
       }
       set_share(tools_[k], seconds, tick_.tools[k].faults);
@@ -212,30 +214,6 @@ class ForceLoop::Implementation {
   }
 
  private:
-  void take_set(const HapticContactSet& set) noexcept {
-    if (set.sequence == taken_) {
-      return;
-    }
-    taken_ = set.sequence;
-    frames_.p_WC = set.p_WC;
-    cone_.clear();
-    frames_.axes = set.axes;
-    frames_.joints = set.joints;
-    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      cone_.add(detail::cone_contact(set.contacts[c], frames_));
-    }
-    if (set.count == 0) {
-      return;
-    }
-    for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
-      for (const double side : {1.0, -1.0}) {
-        if (detail::has_limit(links_->joints()[joint], side)) {
-          cone_.add(detail::limit_of_joint(joint, side, frames_));
-        }
-      }
-    }
-  }
-
   static void measure_velocity(detail::FeltTool& tool, double seconds) noexcept {
     const Pose& target = tool.follower.target();
     if (!tool.follower.is_engaged() || !tool.has_last || !(seconds > 0.0)) {
@@ -263,30 +241,9 @@ class ForceLoop::Implementation {
     return kNanosecond * static_cast<double>(age - set.lasted_ns);
   }
 
-  /// [s]  Adds the look-ahead of damping: it holds for the target, and so for the surfaces below
-  /// it.
-  [[nodiscard]] double felt_after(const HapticContact& contact, double seconds) const noexcept {
-    return seconds + tools_[static_cast<std::size_t>(contact.tool)].look_ahead;
-  }
-
-  [[nodiscard]] detail::ConeProjectionResult project(const HapticContactSet& set,
-                                                     std::int64_t now_ns) noexcept {
-    if (cone_.size() == 0) {
-      solved_.reset();
-      return {};
-    }
-    const double seconds = seconds_since(set, now_ns);
-    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      const HapticContact& contact = set.contacts[c];
-      if (contact.surface_velocity != Vector3d::Zero()) {
-        // A tool that slides stays while the surface moves on, from where the device was at the
-        // stamp. One that is carried along goes back with the surface.
-        const double lasted = kNanosecond * static_cast<double>(set.lasted_ns);
-        const double along = contact.slides ? seconds + lasted : seconds;
-        cone_.set_shift(c, detail::shift_of_surface(contact, felt_after(contact, seconds),
-                                                    felt_after(contact, along)));
-      }
-    }
+  /// Computes the way from the places in a set to the targets, in the coordinates of the metric.
+  [[nodiscard]] Coordinates wanted(const HapticContactSet& set) const noexcept {
+    const detail::ToolFrames& frames = contacts_.frames();
     Coordinates wanted{};
     for (std::size_t k = 0; k < tools_.size(); ++k) {
       const detail::FeltTool& tool = tools_[k];
@@ -300,45 +257,15 @@ class ForceLoop::Implementation {
                             tool.look_ahead * tool.turning;
       for (int i = 0; i < 3; ++i) {
         const auto at = 6 * k + static_cast<std::size_t>(i);
-        wanted[at] = frames_.weights[k] * way[i];
-        wanted[at + 3] = frames_.weights[k] * frames_.lengths[k] * turn[i];
+        wanted[at] = frames.weights[k] * way[i];
+        wanted[at + 3] = frames.weights[k] * frames.lengths[k] * turn[i];
       }
     }
     for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
       wanted[links_->coordinate_of(joint)] =
-          frames_.joint_weights[joint] * (tick_.joint_targets[joint] - set.joints[joint]);
+          frames.joint_weights[joint] * (tick_.joint_targets[joint] - set.joints[joint]);
     }
-    detail::ConeProjectionResult found = cone_.project(wanted, options_.tolerance, options_.pivots);
-    if (found.is_solved) {
-      solved_ = found.force;
-    } else if (found.pressing > 0) {
-      found.force = solved_.value_or(found.force);
-      cut_to_springs(set, wanted, seconds, found.force);
-    }
-    return found;
-  }
-
-  /// Cuts a force to that of springs stretched to the targets, plus the path of the surfaces.
-  /// Without the cut, contacts that contradict each other could have any force.
-  void cut_to_springs(const HapticContactSet& set, const Coordinates& wanted, double seconds,
-                      Coordinates& force) const noexcept {
-    double squares_of_way = 0.0;
-    double squares = 0.0;
-    for (std::size_t k = 0; k < links_->coordinates(); ++k) {
-      squares_of_way += wanted[k] * wanted[k];
-      squares += force[k] * force[k];
-    }
-    double surface = 0.0;
-    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
-      const HapticContact& contact = set.contacts[c];
-      surface = std::max(surface,
-                         std::abs(felt_after(contact, seconds)) * contact.surface_velocity.norm());
-    }
-    const double most = std::sqrt(squares_of_way) + surface;
-    const double length = std::sqrt(squares);
-    for (std::size_t k = 0; k < links_->coordinates() && length > most; ++k) {
-      force[k] *= most / length;
-    }
+    return wanted;
   }
 
   /// [-]  The fraction of a force that the age of the set permits.
@@ -385,12 +312,13 @@ class ForceLoop::Implementation {
     if (!tool.follower.is_engaged()) {
       return wrench;
     }
+    const detail::ToolFrames& frames = contacts_.frames();
     // Coordinates are weights times metres, and a unit of force is the first tool's stiffness.
-    const double factor = tool.stiffness / frames_.weights[k];
+    const double factor = tool.stiffness / frames.weights[k];
     for (int i = 0; i < 3; ++i) {
       const auto at = 6 * k + static_cast<std::size_t>(i);
       wrench.force[i] = factor * force[at];
-      wrench.torque[i] = factor * frames_.lengths[k] * force[at + 3];
+      wrench.torque[i] = factor * frames.lengths[k] * force[at + 3];
     }
     wrench.torque += (tool.follower.target().rotation * tool.p_BC).cross(wrench.force);
     return wrench;
@@ -435,8 +363,8 @@ class ForceLoop::Implementation {
     const detail::FeltTool& tool = tools_[k];
     for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
       if (links_->tool_of_joint(joint) == k) {
-        const double effort =
-            first_stiffness_ * frames_.joint_weights[joint] * force[links_->coordinate_of(joint)];
+        const double effort = first_stiffness_ * contacts_.frames().joint_weights[joint] *
+                              force[links_->coordinate_of(joint)];
         tick_.joint_efforts[joint] = std::isfinite(effort) ? effort : 0.0;
       }
     }
@@ -464,12 +392,9 @@ class ForceLoop::Implementation {
 
   ForceLoopOptions options_;
   std::unique_ptr<detail::ToolLinks> links_;
+  detail::ContactForces contacts_;
   double first_stiffness_ = 0.0;  // [N/m]
-  detail::ConeProjection cone_;
-  detail::ToolFrames frames_;
   std::vector<detail::FeltTool> tools_;
-  // [m]  The last force that was solved since tools touch.
-  std::optional<Coordinates> solved_ = {};
   std::uint64_t taken_ = 0;
   bool has_ticked_ = false;
   ForceTick tick_;

@@ -127,8 +127,9 @@ struct ForceTick {
 /// extrapolated by damping / stiffness seconds, so that forces stay in the cones. The effort of a
 /// joint is that of its own spring likewise.
 ///
-/// Contacts may contradict each other, or need more pivots (ForceFault::unsolved). Then the force
-/// that was solved last stays. It is cut to the length of the springs' stretch, plus the path of
+/// Tools that do not touch each other are solved each for itself. Contacts may contradict each
+/// other, or need more pivots (ForceFault::unsolved). Then the force that was solved last stays
+/// where contacts press. It is cut to the length of the springs' stretch, plus the path of
 /// the surfaces.
 ///
 /// tick() allocates nothing, takes no lock, and makes no system call; its work is bounded.

@@ -317,6 +317,21 @@ ConeProjectionResult ConeProjection::project(const Coordinates& x_free, double t
   return result;
 }
 
+bool ConeProjection::presses_on(std::size_t first, std::size_t count, const Coordinates& x_free,
+                                double tolerance) const noexcept {
+  const auto moves = [&](const Coordinates& row) {
+    return std::any_of(row.begin() + static_cast<std::ptrdiff_t>(first),
+                       row.begin() + static_cast<std::ptrdiff_t>(first + count),
+                       [](double part) { return part != 0.0; });
+  };
+  return std::any_of(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(active_count_),
+                     [&](const Cut& cut) { return moves(cut.row); }) ||
+         std::ranges::any_of(contacts_, [&](const ConeContact& contact) {
+           const double gap = dot(contact.rows[0], x_free) - contact.shift[0] + contact.way;
+           return gap < -tolerance && moves(contact.rows[0]);
+         });
+}
+
 std::array<double, 3> ConeProjection::impulse(std::size_t contact) const noexcept {
   std::array<double, 3> sum{};
   for (std::size_t k = 0; k < active_count_; ++k) {

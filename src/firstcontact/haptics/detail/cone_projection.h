@@ -80,6 +80,12 @@ class ConeProjection {
   [[nodiscard]] ConeProjectionResult project(const Coordinates& x_free, double tolerance,
                                              int most_pivots) noexcept;
 
+  /// Whether a contact that moves some coordinates presses, or is violated by a free displacement.
+  ///
+  /// @param first, count  the coordinates
+  [[nodiscard]] bool presses_on(std::size_t first, std::size_t count, const Coordinates& x_free,
+                                double tolerance) const noexcept;
+
   /// [m]  The impulse of a contact in the last projection, times the inverse metric: along the
   /// normal, then the tangents.
   [[nodiscard]] std::array<double, 3> impulse(std::size_t contact) const noexcept;
