@@ -1,5 +1,6 @@
 // Each tool feels its own contacts, and nothing of those that do not press on it.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/haptic_session.h>
 
 #include "haptics/grip_scenes.h"
 #include "haptics/haptic_scenes.h"
@@ -155,6 +157,28 @@ TEST(ContactForces, AToolThatOnlyTouchesAnUnsolvedOneFeelsNothing) {
   const ForceTick& tick = felt.tick(squeezed, devices);
   EXPECT_TRUE(ends_unsolved(tick.tools[1]));
   EXPECT_EQ(tick.tools[0].force_W, Vector3d::Zero());
+}
+
+// Closed form: two springs in series, though the hand of the second tool feels nothing.
+TEST(ContactForces, AToolFeelsTheSpringOfAnotherThatIsNotEngaged) {
+  for (const double stiffness : {1000.0, 4000.0}) {
+    HapticScene scene = two_cubes();
+    scene.tools[0].X_WB.position.x() = -0.03;
+    scene.tools[1].X_WB.position.x() = 0.0;
+    scene.tools[1].coupling.stiffness = stiffness;
+    HapticSession session(scene,
+                          {.forces = without_limits(), .mappings = {{}, {.clutch_button = 0}}});
+    ForceTick last;
+    for (int k = 0; k < 1600; ++k) {
+      DeviceState second = device_held_at(Vector3d::Zero());
+      second.buttons = k > 20 ? 1U : 0U;
+      const double way = std::min(0.016, 2e-5 * k);
+      last = session.step(std::array{device_held_at({way, 0.0, 0.0}), second});
+    }
+    const double overlap = 0.006 + 1.375 * session.contacts().contact_distance();
+    EXPECT_NEAR(last.tools[0].force_W.x(), -overlap / (1e-3 + 1.0 / stiffness), 1e-3) << stiffness;
+    EXPECT_EQ(last.tools[1].force_W, Vector3d::Zero());
+  }
 }
 
 TEST(ContactForces, AFingerWithoutContactFeelsNothingWhileAnotherIsUnsolved) {

@@ -247,9 +247,7 @@ class ForceLoop::Implementation {
     Coordinates wanted{};
     for (std::size_t k = 0; k < tools_.size(); ++k) {
       const detail::FeltTool& tool = tools_[k];
-      if (!tool.follower.is_engaged()) {
-        continue;
-      }
+      // A tool that is not engaged is held by its spring: the other tool may push it.
       const Pose& target = tool.follower.target();
       const Vector3d way = target.position + target.rotation * tool.p_BC - set.p_WC[k] +
                            tool.look_ahead * tool.velocity;
