@@ -99,12 +99,20 @@ Pose HapticLive::handle(const ToolTick& tool) const {
                                                      : tool.device.X_DH;
 }
 
+/// The target as the page shows it: beside the tool by the way between their centres. Where a tool
+/// is only turned, its origin may be far ahead, and the hand is not.
+Pose HapticLive::shown_target(const ToolTick& tool) const {
+  const Pose& X_WB = *poses_[tool_];
+  const Eigen::Vector3d& p_BC = setup_.scene.tools[tool_].p_BC;
+  return {tool.centre - X_WB.rotation * p_BC, tool.target.rotation};
+}
+
 std::string HapticLive::picture(const ForceTick& tick) {
   shown_ns_ = tick.time_ns;
   const ToolTick& tool = tick.tools[tool_];
   std::string text = fmt::format(R"({{"handle":[{}],"target":[{}],"force":[{}],"torque":[{}],)",
-                                 numbers(handle(tool)), numbers(tool.target), numbers(tool.force_W),
-                                 numbers(tool.torque_W));
+                                 numbers(handle(tool)), numbers(shown_target(tool)),
+                                 numbers(tool.force_W), numbers(tool.torque_W));
   text += grips() == 0 ? std::string() : fmt::format("\"grip\":{},", tool.device.grips[0]);
   text += "\"bodies\":[";
   for (std::size_t k = 0; k < poses_.size(); ++k) {

@@ -39,6 +39,7 @@ class HapticLive {
   [[nodiscard]] std::vector<std::size_t> links() const;
   [[nodiscard]] std::size_t grips() const { return setup_.options.mappings[tool_].grips.size(); }
   [[nodiscard]] Pose handle(const ToolTick& tool) const;
+  [[nodiscard]] Pose shown_target(const ToolTick& tool) const;
 
   const HapticSetup& setup_;
   std::size_t tool_;

@@ -118,7 +118,10 @@ void HapticPlot::add(const ForceTick& tick, std::int64_t begin_ns,
     const ToolTick& tool = tick.tools[k];
     values.force[k] = tool.asked.force_D.norm();
     values.torque[k] = tool.asked.torque_D.norm();
-    values.apart[k] = (tool.target.position - god_objects[k].position).norm();
+    const Eigen::Vector3d p_BC =
+        tool.target.rotation.conjugate() * (tool.centre - tool.target.position);
+    const Pose& X_WB = god_objects[k];
+    values.apart[k] = (tool.centre - X_WB.position - X_WB.rotation * p_BC).norm();
   }
   values.contacts = static_cast<double>(tick.contacts);
   column_at(time_ns).take(values);

@@ -134,7 +134,7 @@ TEST(ForceLoop, LimitsKeepTheWrenchOneOfContacts) {
   const ToolTick whole = pressed_by_an_edge({.force = 1e3, .torque = 1e3});
   const double force = whole.force_W.norm();
   const double torque = whole.torque_W.norm();
-  ASSERT_GT(torque, 0.05);
+  ASSERT_GT(torque, 0.01);
   const auto require = [&](const HapticLimits& limits, double part) {
     const ToolTick cut = pressed_by_an_edge(limits);
     EXPECT_TRUE(has(cut, ForceFault::limited));

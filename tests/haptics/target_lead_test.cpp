@@ -30,6 +30,7 @@ struct Ticks {
 
   void give(const Pose& target, std::uint32_t faults = 0, bool is_new = true) {
     tick.target = target;
+    tick.centre = target.position;
     tick.faults = faults;
     if (is_new) {
       tick.device.time_ns = now;

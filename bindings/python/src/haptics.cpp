@@ -226,10 +226,10 @@ void bind_tick(py::module_& m) {
           "[N m] n×3, torque about each handle, in its own axes.")
       .def_property_readonly(
           "forces_world", [](const FeltTick& t) { return t.rows(&ToolTick::force_W); },
-          "[N] n×3, force on each device, world axes.")
+          "[N] n×3, force on each device at the centre of its tool, world axes.")
       .def_property_readonly(
           "torques_world", [](const FeltTick& t) { return t.rows(&ToolTick::torque_W); },
-          "[N m] n×3, torque about each handle, world axes.")
+          "[N m] n×3, torque about the centre of each tool, world axes.")
       .def_property_readonly("grip_efforts", &FeltTick::grip_efforts,
                              "[J] Efforts on the grips of each device: work by their values.")
       .def_property_readonly("joint_efforts", &FeltTick::joint_efforts,

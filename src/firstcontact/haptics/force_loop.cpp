@@ -159,7 +159,7 @@ class ForceLoop::Implementation {
       mapping.R_WD.normalize();
       mapping.X_DH.rotation.normalize();
       const Pose start{tool.X_WB.position, tool.X_WB.rotation.normalized()};
-      detail::FeltTool felt{detail::TargetFollower(mapping, start),
+      detail::FeltTool felt{detail::TargetFollower(mapping, start, tool.p_BC),
                             detail::GripFollower(mapping.grips, k, *links_)};
       felt.p_BC = tool.p_BC;
       felt.stiffness = tool.coupling.stiffness;
@@ -168,6 +168,7 @@ class ForceLoop::Implementation {
       felt.R_DW = mapping.R_WD.conjugate();
       tools_.push_back(std::move(felt));
       tick_.tools[k].target = start;
+      tick_.tools[k].centre = detail::centre_at(start, tool.p_BC);
     }
   }
 
@@ -192,6 +193,7 @@ class ForceLoop::Implementation {
       const Pose& god_object = set.sequence > 0 ? set.X_WB[k] : tick.target;
       tools_[k].follower.follow(devices[k], god_object, seconds);
       tick.target = tools_[k].follower.target();
+      tick.centre = detail::centre_at(tick.target, tools_[k].p_BC);
       tick.faults = tools_[k].follower.faults();
       tools_[k].grips.follow(devices[k], tools_[k].follower.is_engaged(), set, seconds, tick.grips,
                              tick_.joint_targets);
@@ -221,9 +223,9 @@ class ForceLoop::Implementation {
       tool.turning.setZero();
     } else {
       const double part = seconds / (kSmoothing + seconds);
-      const Vector3d centre = target.position + target.rotation * tool.p_BC;
-      const Vector3d before = tool.last_target.position + tool.last_target.rotation * tool.p_BC;
-      tool.velocity += part * ((centre - before) / seconds - tool.velocity);
+      const Vector3d way =
+          detail::centre_at(target, tool.p_BC) - detail::centre_at(tool.last_target, tool.p_BC);
+      tool.velocity += part * (way / seconds - tool.velocity);
       tool.turning +=
           part * (detail::turn_between(tool.last_target.rotation, target.rotation) / seconds -
                   tool.turning);
@@ -249,8 +251,7 @@ class ForceLoop::Implementation {
       const detail::FeltTool& tool = tools_[k];
       // A tool that is not engaged is held by its spring: the other tool may push it.
       const Pose& target = tool.follower.target();
-      const Vector3d way = target.position + target.rotation * tool.p_BC - set.p_WC[k] +
-                           tool.look_ahead * tool.velocity;
+      const Vector3d way = tick_.tools[k].centre - set.p_WC[k] + tool.look_ahead * tool.velocity;
       const Vector3d turn = detail::turn_between(set.X_WB[k].rotation, target.rotation) +
                             tool.look_ahead * tool.turning;
       for (int i = 0; i < 3; ++i) {
@@ -303,7 +304,7 @@ class ForceLoop::Implementation {
     return (tick.faults & kAtOnce) != 0;
   }
 
-  /// Computes the wrench of contacts on a tool, about the target's origin.
+  /// Computes the wrench of contacts on a tool, about the centre of its target.
   [[nodiscard]] Wrench wrench_of(std::size_t k, const Coordinates& force) const noexcept {
     const detail::FeltTool& tool = tools_[k];
     Wrench wrench;
@@ -318,7 +319,6 @@ class ForceLoop::Implementation {
       wrench.force[i] = factor * force[at];
       wrench.torque[i] = factor * frames.lengths[k] * force[at + 3];
     }
-    wrench.torque += (tool.follower.target().rotation * tool.p_BC).cross(wrench.force);
     return wrench;
   }
 

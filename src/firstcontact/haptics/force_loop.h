@@ -36,7 +36,8 @@ struct GripMapping {
 /// The map from the pose of a device's handle H to the pose of the body B of its tool.
 ///
 /// The motion of the handle from a reference pose is turned by R_WD, and its translation is scaled.
-/// The map adds it to the reference pose of the body, at first the start of the tool. When the
+/// The map adds it to the reference pose of the body, at first the start of the tool. The
+/// translation moves the centre of the tool, and the tool turns about its centre. When the
 /// clutch is let go, the poses of handle and god-object become the references. So a clutch never
 /// moves a tool through a wall.
 struct DeviceMapping {
@@ -92,8 +93,9 @@ inline constexpr std::array<const char*, 8> kForceFaultWords{
 struct ToolTick {
   DeviceState device;
   Pose target;                                         ///< The pose X_WB that the device wants.
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    At the target's origin.
-  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About the target's origin.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< [m]  Centre of the tool there, world.
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    At that centre.
+  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About that centre.
   /// The force and the torque for the device, with components that it does not drive.
   ForceCommand asked = {};
   /// The same, cut in a wall session to the components that the device drives.

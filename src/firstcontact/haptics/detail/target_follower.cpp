@@ -58,23 +58,30 @@ std::uint32_t TargetFollower::faults_of(const DeviceState& device) const noexcep
   return faults;
 }
 
+/// Moves the centre of a body by `way`, and turns the body about it to R_WB.
+Pose TargetFollower::moved(const Pose& from, const Vector3d& way,
+                           const Eigen::Quaterniond& R_WB) const noexcept {
+  return {from.position + way + (from.rotation * p_BC_ - R_WB * p_BC_), R_WB};
+}
+
 Pose TargetFollower::mapped(const Pose& X_DH) const noexcept {
   const Eigen::Quaterniond& R_WD = mapping_.R_WD;
   const Eigen::Quaterniond turn = X_DH.rotation.normalized() * X_DH_.rotation.conjugate();
-  return {X_WB_.position + mapping_.scale * (R_WD * (X_DH.position - X_DH_.position)),
-          (R_WD * turn * R_WD.conjugate() * X_WB_.rotation).normalized()};
+  return moved(X_WB_, mapping_.scale * (R_WD * (X_DH.position - X_DH_.position)),
+               (R_WD * turn * R_WD.conjugate() * X_WB_.rotation).normalized());
 }
 
 void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
                            double seconds) noexcept {
   const Eigen::Quaterniond& R_WD = mapping_.R_WD;
   const Vector3d way = seconds * mapping_.scale * (R_WD * device.linear_rate);
-  const Vector3d lead = shortened(target_.position + way - god_object.position, kMostLead);
+  const Pose at{god_object.position, god_object.rotation.normalized()};
+  const Vector3d lead =
+      shortened(centre_at(target_, p_BC_) + way - centre_at(at, p_BC_), kMostLead);
   const Eigen::Quaterniond turned =
       turn_by(seconds * (R_WD * device.angular_rate)) * target_.rotation;
-  const Vector3d turn = shortened(turn_between(god_object.rotation, turned), kMostLeadOfTurn);
-  target_ = {god_object.position + lead,
-             (turn_by(turn) * god_object.rotation.normalized()).normalized()};
+  const Vector3d turn = shortened(turn_between(at.rotation, turned), kMostLeadOfTurn);
+  target_ = moved(at, lead, (turn_by(turn) * at.rotation).normalized());
 }
 
 /// Ends an engagement: the target stays where the god-object is. A body that pushes the tool from

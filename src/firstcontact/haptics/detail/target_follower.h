@@ -12,11 +12,22 @@
 
 namespace firstcontact::detail {
 
-/// Follows one device.
+/// [m]  Computes the place of a body's centre C.
+[[nodiscard]] inline Eigen::Vector3d centre_at(const Pose& X_WB,
+                                               const Eigen::Vector3d& p_BC) noexcept {
+  return X_WB.position + X_WB.rotation * p_BC;
+}
+
+/// Follows one device. Its handle moves the centre C of the tool, and turns the tool about C.
 class TargetFollower {
  public:
-  TargetFollower(const DeviceMapping& mapping, const Pose& X_WB)
-      : mapping_(mapping), X_DH_(mapping.X_DH), X_WB_(X_WB), target_(X_WB), held_(X_WB) {}
+  TargetFollower(const DeviceMapping& mapping, const Pose& X_WB, const Eigen::Vector3d& p_BC)
+      : mapping_(mapping),
+        p_BC_(p_BC),
+        X_DH_(mapping.X_DH),
+        X_WB_(X_WB),
+        target_(X_WB),
+        held_(X_WB) {}
 
   /// Takes the state of the device at a tick.
   ///
@@ -31,12 +42,15 @@ class TargetFollower {
 
  private:
   [[nodiscard]] std::uint32_t faults_of(const DeviceState& device) const noexcept;
+  [[nodiscard]] Pose moved(const Pose& from, const Eigen::Vector3d& way,
+                           const Eigen::Quaterniond& R_WB) const noexcept;
   [[nodiscard]] Pose mapped(const Pose& X_DH) const noexcept;
   void disengage(bool was_engaged, const Pose& god_object) noexcept;
   void drive(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
   DeviceMapping mapping_;
-  Pose X_DH_;  // Reference pose of the handle.
+  Eigen::Vector3d p_BC_;  // [m]
+  Pose X_DH_;             // Reference pose of the handle.
   // Reference pose of the body.
   Pose X_WB_;
   Pose target_;

@@ -53,6 +53,7 @@ void TargetLead::watch(std::int64_t now_ns, const ToolTick& tick) noexcept {
                          static_cast<std::uint32_t>(ForceFault::disengaged);
   now_ns_ = now_ns;
   target_ = tick.target;
+  centre_ = tick.centre;
   if ((tick.faults & kAway) != 0) {
     count_ = 0;
     has_newest_ = false;
@@ -60,7 +61,7 @@ void TargetLead::watch(std::int64_t now_ns, const ToolTick& tick) noexcept {
   }
   if (!has_newest_ || tick.device.sequence != sequence_) {
     sequence_ = tick.device.sequence;
-    take({tick.device.time_ns, tick.target});
+    take({tick.device.time_ns, tick.centre, tick.target.rotation});
   }
 }
 
@@ -79,8 +80,8 @@ const TargetLead::Sample* TargetLead::sample_at(std::int64_t time_ns) const noex
 
 TargetLead::Velocity TargetLead::between(const Sample& from, const Sample& to) noexcept {
   const double per_second = 1.0 / (kNanosecond * static_cast<double>(to.time_ns - from.time_ns));
-  return {per_second * (to.target.position - from.target.position),
-          per_second * turn_between(from.target.rotation, to.target.rotation)};
+  return {per_second * (to.centre - from.centre),
+          per_second * turn_between(from.rotation, to.rotation)};
 }
 
 std::optional<TargetLead::Velocity> TargetLead::velocity() const noexcept {
@@ -113,7 +114,10 @@ Pose TargetLead::target_in(double seconds) const noexcept {
   Pose led = target_;
   led.position += ahead * moves->linear;
   if (moves->angular != Vector3d::Zero()) {
-    led.rotation = (turn_by(ahead * moves->angular) * led.rotation).normalized();
+    const Eigen::Quaterniond turn = turn_by(ahead * moves->angular);
+    const Vector3d p_BC_W = centre_ - target_.position;
+    led.position += p_BC_W - turn * p_BC_W;
+    led.rotation = (turn * led.rotation).normalized();
   }
   return led;
 }

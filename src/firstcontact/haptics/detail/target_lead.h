@@ -9,6 +9,7 @@
 #include <optional>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <firstcontact/haptics/contact_set.h>
 #include <firstcontact/haptics/force_loop.h>
@@ -41,10 +42,11 @@ class TargetLead {
  private:
   struct Sample {
     std::int64_t time_ns = 0;
-    Pose target;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   };
   struct Velocity {
-    Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // [m/s]
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // [m/s]  Of the centre.
     Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // [rad/s]
   };
 
@@ -63,7 +65,8 @@ class TargetLead {
   bool has_newest_ = false;
   std::uint64_t sequence_ = 0;  // Sequence number of the newest sample.
   Sample newest_;
-  Pose target_;  // The target of the last tick.
+  Pose target_;                                       // The target of the last tick.
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  // [m]  Its centre.
 };
 
 /// Whether a tool touches anything with friction. Then its target is not extrapolated. A god-object
