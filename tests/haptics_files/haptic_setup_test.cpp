@@ -46,6 +46,28 @@ TEST(HapticSetup, TakesWhatTheSceneSays) {
   EXPECT_EQ(setup.options.mappings[0].dead_man_button, -1);
 }
 
+/// The centre that a tool has without "centre".
+Eigen::Vector3d default_centre(const std::string& shape) {
+  Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [{"name": "peg", "shape": )" + shape +
+                                R"(}], "haptics": {"tools": [{"body": "peg"}]}})",
+                            "scene.json");
+  ShapeCache cache;
+  prepare_haptics(scene, cache, 1.0);
+  return haptic_setup(load_scene(std::move(scene), cache)).scene.tools[0].p_BC;
+}
+
+// The middle along the axes of the mesh: that of the smallest box depends on its triangles.
+TEST(HapticSetup, CentresAToolInTheMiddleOfItsBounds) {
+  const std::string pyramid =
+      R"("vertices": [[0, 0, 0], [4, 0, 0], [4, 3, 1], [0, 3, 1], [1, 2, 9]],
+    "triangles": [[0, 1, 2], [0, 2, 3], [0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]])";
+  EXPECT_EQ(default_centre("{" + pyramid + "}"), Eigen::Vector3d(2.0, 1.5, 4.5));
+  for (const char* cone : {R"({"cone": {"radius": 0.01, "length": 0.02}})",
+                           R"({"cone": {"radius": 0.01, "length": 0.05}})"}) {
+    EXPECT_LT(default_centre(cone).norm(), 1e-6) << cone;
+  }
+}
+
 void expect_refused(const std::string& text, const std::string& part) {
   try {
     (void)parse_scene(text, "scene.json");

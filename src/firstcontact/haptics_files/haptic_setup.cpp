@@ -9,7 +9,9 @@
 #include <utility>
 #include <variant>
 
-#include <firstcontact/geometry/shape_bounds.h>
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/mesh.h>
 #include <firstcontact/haptics/detail/session_periods.h>
 #include <firstcontact/haptics_files/detail/rigid_robots.h>
 #include <firstcontact/scene/loaded_scene.h>
@@ -92,13 +94,22 @@ void add_links(const LoadedScene& loaded, const HapticToolQuestion& question, do
   }
 }
 
+/// [m]  Computes the middle of a shape's bounds along the axes of its frame.
+Eigen::Vector3d middle_of_bounds(const Shape& shape) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : shape.mesh().vertices) {
+    bounds.extend(vertex);
+  }
+  return bounds.center();
+}
+
 HapticTool tool_of(const LoadedScene& loaded, const HapticToolQuestion& question, double friction) {
   const Body& body = loaded.scene.bodies[question.body];
   const Shape& shape = loaded.bodies.shape(question.body);
   HapticTool tool{.name = body.name,
                   .shape = shape,
                   .X_WB = std::get<FixedMotion>(body.motion).pose,
-                  .p_BC = question.centre.value_or(shape.bounds().centre),
+                  .p_BC = question.centre.value_or(middle_of_bounds(shape)),
                   .friction = body.surface.friction.value_or(friction),
                   .coupling = {.stiffness = question.stiffness,
                                .angular_stiffness = question.angular_stiffness,
