@@ -257,6 +257,33 @@ TEST(ForceLoop, RateDevicesLeadByLittle) {
   EXPECT_LE((tick.target.position - felt.contacts.pose(0).position).norm(), 0.02 + 1e-12);
 }
 
+// Closed form: the spring, and damping times the hand's velocity, after pauses of any length too.
+TEST(ForceLoop, DampsByTheTrueVelocityAfterAPause) {
+  constexpr double kSpeed = 0.05;
+  constexpr double kDamping = 20.0;
+  HapticScene scene = cube_on_floor();
+  scene.tools[0].coupling.damping = kDamping;
+  ContactLoop contacts(scene);
+  Pose below = contacts.pose(0);
+  below.position.z() = 0.0;
+  for (int k = 0; k < 5; ++k) {
+    (void)contacts.advance(std::array{below}, 1e-3, 0);
+  }
+  ForceLoop forces(scene, {{}}, {.limits = {.force = 100.0, .force_slew = 1e9, .ramp_ns = 0}});
+  HapticContactSet set = contacts.contact_set();
+  const double floor = contacts.pose(0).position.z() - 0.03 - set.contacts[0].way;
+  std::int64_t now = 0;
+  for (int k = 0; k < 400; ++k) {
+    now += k % 100 == 99 ? 100 * kTick : kTick;
+    set.stamp_ns = now;
+    const double z = -0.012 - kSpeed * 1e-9 * static_cast<double>(now);
+    const ForceTick& tick = forces.tick(now, set, std::array{handle_at({0.0, 0.0, z})});
+    if (k > 80) {
+      ASSERT_NEAR(tick.tools[0].force_W.z(), 1000.0 * (floor - z) + kDamping * kSpeed, 0.01) << k;
+    }
+  }
+}
+
 TEST(ForceLoop, RefusesNumbersOutOfRange) {
   const HapticScene scene = cube_on_floor();
   EXPECT_THROW((ForceLoop{scene, {}}), std::invalid_argument);

@@ -380,6 +380,8 @@ TEST(HapticSession, FeelsConstantFrictionWhileItSlides) {
 
 TEST(HapticSession, RefusesRatesOutOfRange) {
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
+  EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 99.0, .contact_rate = 50.0}),
+               std::invalid_argument);
   EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),
                std::invalid_argument);
   HapticSession session(cube_on_floor());

@@ -114,8 +114,8 @@ TEST(HapticsFile, SaysWhatIsWrong) {
       {tools + R"("max_torque": "5"})", ".max_torque: expected a number, got \"5\""},
       {tools + R"("force_slew": 0})", ".force_slew: expected a number > 0, got 0"},
       {tools + R"("torque_slew": null})", ".torque_slew: expected a number, got null"},
-      {tools + R"("force_rate": 1000001})", ".force_rate: expected 1 Hz to 1e6 Hz, got 1000001"},
-      {tools + R"("force_rate": 0.5})", ".force_rate: expected 1 Hz to 1e6 Hz, got 0.5"},
+      {tools + R"("force_rate": 1000001})", ".force_rate: expected 100 Hz to 1e6 Hz, got 1000001"},
+      {tools + R"("force_rate": 99})", ".force_rate: expected 100 Hz to 1e6 Hz, got 99"},
       {tools + R"("contact_rate": 0.5})", ".contact_rate: expected 1 Hz or more, got 0.5"},
       // One of the two is a default: neither alone is wrong.
       {tools + R"("force_rate": 500})",

@@ -24,7 +24,8 @@ constexpr double kNanosecond = 1e-9;  // [s]
 // [-]  Greatest scale of a mapping, so that doubles resolve targets.
 constexpr double kMostScale = 1e6;
 
-/// [s]  Longest time of a tick that counts: the loop does not make up for a longer pause.
+/// [s]  Longest time of a tick in which forces grow: the loop does not make up for a longer pause.
+/// It is the period of the lowest rate (kLeastForceRate).
 constexpr double kLongestTick = 0.01;
 
 /// [s]  Time over which velocities are smoothed, for damping.
@@ -174,10 +175,10 @@ class ForceLoop::Implementation {
 
   const ForceTick& tick(std::int64_t now_ns, const HapticContactSet& set,
                         std::span<const DeviceState> devices) noexcept {
-    const double seconds =
-        has_ticked_ ? std::clamp(kNanosecond * static_cast<double>(now_ns - tick_.time_ns), 0.0,
-                                 kLongestTick)
+    const double passed =
+        has_ticked_ ? std::max(0.0, kNanosecond * static_cast<double>(now_ns - tick_.time_ns))
                     : 0.0;
+    const double seconds = std::min(passed, kLongestTick);
     has_ticked_ = true;
     tick_.time_ns = now_ns;
     tick_.set = set.sequence;
@@ -197,7 +198,7 @@ class ForceLoop::Implementation {
       tick.faults = tools_[k].follower.faults();
       tools_[k].grips.follow(devices[k], tools_[k].follower.is_engaged(), set, seconds, tick.grips,
                              tick_.joint_targets);
-      measure_velocity(tools_[k], seconds);
+      measure_velocity(tools_[k], passed);
     }
     const detail::ContactForce projected =
         contacts_.project(set, wanted(set), seconds_since(set, now_ns));

@@ -23,8 +23,8 @@ std::int64_t whole_ticks(double ticks) {
 }  // namespace
 
 SessionPeriods session_periods(const HapticSessionOptions& options) {
-  if (!(options.force_rate > 0.0 && options.force_rate <= 1e6)) {
-    throw std::invalid_argument("HapticSessionOptions::force_rate must be in (0, 1e6] Hz");
+  if (!(options.force_rate >= kLeastForceRate && options.force_rate <= 1e6)) {
+    throw std::invalid_argument("HapticSessionOptions::force_rate must be in [100, 1e6] Hz");
   }
   if (!(options.contact_rate > 0.0 && options.contact_rate <= options.force_rate)) {
     throw std::invalid_argument(

@@ -15,9 +15,12 @@
 
 namespace firstcontact {
 
+/// [Hz]  The lowest rate of a force loop: no hand feels steps of 10 ms as a surface.
+inline constexpr double kLeastForceRate = 100.0;
+
 /// The options of a haptic session.
 struct HapticSessionOptions {
-  double force_rate = 4000.0;    ///< [Hz]  In (0, 1e6].
+  double force_rate = 4000.0;    ///< [Hz]  In [kLeastForceRate, 1e6].
   double contact_rate = 1000.0;  ///< [Hz]  In (0, force_rate].
   /// [ns]  Virtual time that a cycle of the contact loop takes, at least a tick; >= 0.
   std::int64_t contact_latency_ns = 0;

@@ -50,9 +50,10 @@ class HapticsReader {
 
  private:
   void require_rates(const JsonValue& value, const HapticQuestion& haptics) const {
-    constexpr double kLeastRate = 1.0;  // [Hz]
-    if (!(haptics.force_rate <= 1e6 && haptics.force_rate >= kLeastRate)) {
-      read_.fail_expected("1 Hz to 1e6 Hz", read_.member(value, "force_rate"));
+    constexpr double kLeastForceRate = 100.0;  // [Hz]
+    constexpr double kLeastRate = 1.0;         // [Hz]
+    if (!(haptics.force_rate <= 1e6 && haptics.force_rate >= kLeastForceRate)) {
+      read_.fail_expected("100 Hz to 1e6 Hz", read_.member(value, "force_rate"));
     }
     if (!(haptics.contact_rate >= kLeastRate)) {
       read_.fail_expected("1 Hz or more", read_.member(value, "contact_rate"));
