@@ -122,6 +122,10 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
   text +=
       answer_line("time lost",
                   time_lost_ > 0.0 ? time_text(time_lost_) + ": bodies waited for a tool" : "none");
+  if (wall && wall->paused_ns > 0) {
+    text += answer_line("paused", time_text(1e-9 * static_cast<double>(wall->paused_ns)) +
+                                      ": the machine stopped the contact loop, bodies stood");
+  }
   return wall ? text + wall_text(*wall) : text;
 }
 

@@ -13,6 +13,7 @@
 #include <firstcontact/haptics/contact_set.h>
 #include <firstcontact/haptics/detail/tick_ring.h>
 #include <firstcontact/haptics/wall_session.h>
+#include <firstcontact/motion/motion.h>
 
 #include "haptics/haptic_scenes.h"
 
@@ -205,6 +206,35 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   EXPECT_EQ(report.tick_cpu.count(), report.ticks);
   EXPECT_GE(report.ticks + report.skipped_ticks, 49U);
   EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.
+}
+
+// Cycles that are late by a multiple of their period: courses move on for the time that passed.
+TEST(WallSession, CoursesKeepToTheWallClock) {
+  HapticScene scene = cube_on_floor();
+  scene.bodies.push_back(body_at("mover", make_box({0.01, 0.01, 0.01}), {0.5, 0.5, 0.5}));
+  scene.bodies.back().course =
+      Motion::constant_velocity(scene.bodies.back().X_WB, Eigen::Vector3d(0.0, 0.0, 10.0));
+  scene.duration = 10.0;
+  StillDevice device;
+  Device* const devices[] = {&device};
+  std::int64_t first_ns = 0;
+  std::int64_t last_ns = 0;
+  double moved = 0.0;
+  double asked = 0.0;
+  const WallSessionReport report =
+      run_wall_session(scene, {.force_rate = 500.0, .contact_rate = 500.0}, devices,
+                       {.duration = 0.4, .real_time = false, .contact_delay_ns = 10'000'000}, {},
+                       [&](const HapticCycle& cycle, std::int64_t time_ns) {
+                         first_ns = cycle.index == 1 ? time_ns : first_ns;
+                         last_ns = time_ns;
+                         asked += cycle.asked;
+                         moved = cycle.members.back().X_WB.position.z() - 0.5;
+                       });
+  const double paused = 1e-9 * static_cast<double>(report.paused_ns);
+  const double passed = 1e-9 * static_cast<double>(last_ns - first_ns) + 0.002 - paused;
+  EXPECT_GT(passed, 0.1);
+  EXPECT_NEAR(moved, passed, 0.02);
+  EXPECT_NEAR(moved, asked, 1e-9);
 }
 
 /// An exception of a callback reaches the caller, long before the session would have ended. Both

@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -30,6 +31,8 @@ using WallClock = std::chrono::steady_clock;
 constexpr int kForcePriority = 80;
 constexpr int kContactPriority = 60;
 constexpr std::size_t kRing = 1U << 14;  // [ticks]  4 s at 4 kHz.
+// [ns]  Longest time for which courses move on in a cycle. After a longer pause they would jump.
+constexpr std::int64_t kLongestCycle = 50'000'000;
 // [ns]  Time for which the loop that does nothing runs.
 constexpr std::int64_t kEmptyNs = 200'000'000;
 
@@ -217,16 +220,30 @@ class ContactThread {
     const HapticCycle& cycle =
         loop_.advance({.poses = std::span(handed.targets).first(loop_.scene().tools.size()),
                        .joints = std::span(handed.joints).first(handed.joint_count)},
-                      1e-9 * static_cast<double>(period_ns_), handed.time_ns, deadline);
+                      1e-9 * static_cast<double>(length_of_cycle(begin)), handed.time_ns, deadline);
     report_.cycle_wall.add(steady_now_ns() - begin);
     report_.cycle_cpu.add(cpu_now_ns() - cpu);
     if (wall_.contact_delay_ns > 0) {
       sleep_until_ns(steady_now_ns() + wall_.contact_delay_ns);
     }
-    shared_.sets.put(loop_.contact_set());
+    HapticContactSet set = loop_.contact_set();
+    set.lasted_ns = begin + period_ns_ - handed.time_ns;
+    set.checksum = checksum_of(set);
+    shared_.sets.put(set);
     ++report_.cycles;
     const std::lock_guard lock(shared_.cycles_mutex);
     shared_.cycles.emplace_back(cycle, handed.time_ns);
+  }
+
+  /// [ns]  Computes the time for which courses move on in a cycle, so that they are a period after
+  /// its begin where they should be then.
+  std::int64_t length_of_cycle(std::int64_t begin) {
+    const std::int64_t passed = begin_ ? begin - *begin_ : period_ns_;
+    begin_ = begin;
+    const std::int64_t length =
+        std::clamp<std::int64_t>(passed, 1, std::max(kLongestCycle, period_ns_));
+    report_.paused_ns += passed - length;
+    return length;
   }
 
   SharedSession& shared_;
@@ -234,6 +251,7 @@ class ContactThread {
   std::int64_t period_ns_;
   const WallSessionOptions& wall_;
   WallSessionReport& report_;
+  std::optional<std::int64_t> begin_;  // [ns]  Begin of the last cycle.
 };
 
 /// Hands the new ticks and cycles to the caller.
