@@ -475,6 +475,7 @@ TEST(Grip, FingersStayWhereTheClutchFoundThem) {
   set.joints[0] = 0.4;
   EXPECT_EQ(forces.tick(250'000, set, std::array{device}).joint_targets[0], 0.4);
   set.joints[0] = 0.1;
+  set.stamp_ns = 250'000;
   EXPECT_EQ(forces.tick(500'000, set, std::array{device}).joint_targets[0], 0.4);
 }
 

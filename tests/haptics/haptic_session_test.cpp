@@ -310,6 +310,30 @@ TEST(HapticSession, ToolStaysWhereItsDeviceWasLostOrClutched) {
   }
 }
 
+// A cycle is under way while the device is lost: the tool stays where that cycle leaves it.
+TEST(HapticSession, ToolDoesNotGoBackWhereItsDeviceWasLost) {
+  for (const std::int64_t latency_ns : {0, 10'000'000, 100'000'000}) {
+    for (const bool is_lost : {true, false}) {
+      HapticSession session(cube_on_floor(),
+                            {.contact_latency_ns = latency_ns, .mappings = {{.clutch_button = 0}}});
+      Sampled sampled;
+      double farthest = 0.0;
+      for (int k = 0; k < 3000; ++k) {
+        DeviceState state = sampled({2.5e-4 * std::min(k, 1234), 0.0, 0.1}, session.time_ns());
+        if (k >= 1234) {
+          state.status = is_lost ? DeviceStatus::lost : DeviceStatus::live;
+          state.buttons = is_lost ? 0U : 1U;
+        }
+        (void)session.step(std::array{state});
+        const double x = session.contacts().pose(0).position.x();
+        farthest = std::max(farthest, x);
+        ASSERT_GE(x, farthest - 1e-9) << latency_ns << ", " << k;
+      }
+      EXPECT_GT(farthest, 0.1) << latency_ns;
+    }
+  }
+}
+
 // A floor that rises at a constant rate pushes a cube that the hand holds still. The felt force is
 // that of the floor's present position, neither a cycle before nor after it.
 TEST(HapticSession, FeelsSurfacesWhereTheyAreNow) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -138,6 +139,7 @@ struct FeltTool {
   Vector3d turning = Vector3d::Zero();   // [rad/s]  Angular velocity of the target, smoothed.
   bool is_felt = false;                  // Whether it was engaged in the last tick.
   double share = 0.0;                    // [-]  The fraction of its limited force that acts.
+  std::optional<std::int64_t> left_ns;   // [ns]  End of the last engagement.
 };
 
 }  // namespace detail
@@ -191,13 +193,7 @@ class ForceLoop::Implementation {
     for (std::size_t k = 0; k < tools_.size() && k < devices.size(); ++k) {
       ToolTick& tick = tick_.tools[k];
       tick.device = devices[k];
-      const Pose& god_object = set.sequence > 0 ? set.X_WB[k] : tick.target;
-      tools_[k].follower.follow(devices[k], god_object, seconds);
-      tick.target = tools_[k].follower.target();
-      tick.centre = detail::centre_at(tick.target, tools_[k].p_BC);
-      tick.faults = tools_[k].follower.faults();
-      tools_[k].grips.follow(devices[k], tools_[k].follower.is_engaged(), set, seconds, tick.grips,
-                             tick_.joint_targets);
+      follow(k, devices[k], set, seconds);
       measure_velocity(tools_[k], passed);
     }
     const detail::ContactForce projected =
@@ -217,6 +213,26 @@ class ForceLoop::Implementation {
   }
 
  private:
+  /// Follows the device of a tool, and its grips.
+  void follow(std::size_t k, const DeviceState& device, const HapticContactSet& set,
+              double seconds) noexcept {
+    detail::FeltTool& tool = tools_[k];
+    ToolTick& tick = tick_.tools[k];
+    const Pose god_object = set.sequence > 0 ? set.X_WB[k] : tick.target;
+    const bool was_engaged = tool.follower.is_engaged();
+    const bool still_follows = set.sequence > 0 && tool.left_ns && set.stamp_ns < *tool.left_ns;
+    tool.follower.follow(device, god_object, seconds, still_follows);
+    const bool is_engaged = tool.follower.is_engaged();
+    if (was_engaged && !is_engaged) {
+      tool.left_ns = tick_.time_ns;
+    }
+    tick.target = tool.follower.target();
+    tick.centre = detail::centre_at(tick.target, tool.p_BC);
+    tick.faults = tool.follower.faults();
+    tool.grips.follow(device, is_engaged, set, seconds, still_follows, tick.grips,
+                      tick_.joint_targets);
+  }
+
   static void measure_velocity(detail::FeltTool& tool, double seconds) noexcept {
     const Pose& target = tool.follower.target();
     if (!tool.follower.is_engaged() || !tool.has_last || !(seconds > 0.0)) {

@@ -41,10 +41,12 @@ GripFollower::GripFollower(const std::vector<GripMapping>& grips, std::size_t to
 }
 
 void GripFollower::follow(const DeviceState& device, bool is_engaged, const HapticContactSet& set,
-                          double seconds, std::array<double, kMostGrips>& values,
+                          double seconds, bool still_follows,
+                          std::array<double, kMostGrips>& values,
                           std::array<double, kMostHapticJoints>& targets) noexcept {
   if (!is_engaged) {
-    for (std::size_t joint = 0; joint < links_->joints().size() && was_engaged_; ++joint) {
+    const bool moves_on = was_engaged_ || still_follows;
+    for (std::size_t joint = 0; joint < links_->joints().size() && moves_on; ++joint) {
       if (links_->tool_of_joint(joint) == tool_ && set.sequence > 0) {
         targets[joint] = set.joints[joint];
       }

@@ -33,11 +33,12 @@ class GripFollower {
   /// god-object at the end of the engagement, and grips by buttons stay.
   ///
   /// @param seconds  since the last tick.
+  /// @param still_follows  as in TargetFollower::follow()
   /// @param values   takes the values of the grips.
   /// @param targets  takes the wanted positions of the tool's joints [rad or m], within their
   ///         limits.
   void follow(const DeviceState& device, bool is_engaged, const HapticContactSet& set,
-              double seconds, std::array<double, kMostGrips>& values,
+              double seconds, bool still_follows, std::array<double, kMostGrips>& values,
               std::array<double, kMostHapticJoints>& targets) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return grips_.size(); }

@@ -86,21 +86,22 @@ void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
 
 /// Ends an engagement: the target stays where the god-object is. A body that pushes the tool from
 /// there moves it only as long as it touches.
-void TargetFollower::disengage(bool was_engaged, const Pose& god_object) noexcept {
-  held_ = was_engaged ? god_object : held_;
+void TargetFollower::disengage(bool moves_on, const Pose& god_object) noexcept {
+  held_ = moves_on ? god_object : held_;
   target_ = held_;
   is_engaged_ = false;
 }
 
-void TargetFollower::follow(const DeviceState& device, const Pose& god_object,
-                            double seconds) noexcept {
+void TargetFollower::follow(const DeviceState& device, const Pose& god_object, double seconds,
+                            bool still_follows) noexcept {
   const bool was_engaged = is_engaged_;
+  const bool moves_on = was_engaged || still_follows;
   faults_ = faults_of(device);
   if (faults_ != 0) {
     // A lost device keeps its references, so that its handle has the same meaning when it comes
     // back.
     is_rebased_ = is_rebased_ || faults_ == static_cast<std::uint32_t>(ForceFault::disengaged);
-    disengage(was_engaged, god_object);
+    disengage(moves_on, god_object);
     return;
   }
   if (!was_engaged) {
@@ -124,7 +125,7 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object,
   if (!target_.position.allFinite() || !(target_.rotation.squaredNorm() > 0.0)) {
     // Scale and position may be finite and their product not.
     faults_ = static_cast<std::uint32_t>(ForceFault::not_finite);
-    disengage(was_engaged, god_object);
+    disengage(moves_on, god_object);
   }
 }
 

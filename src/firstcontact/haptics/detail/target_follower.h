@@ -31,9 +31,12 @@ class TargetFollower {
 
   /// Takes the state of the device at a tick.
   ///
-  /// @param god_object  its pose
-  /// @param seconds     since the last tick
-  void follow(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
+  /// @param god_object     its pose
+  /// @param seconds        since the last tick
+  /// @param still_follows  whether the god-object comes from a cycle that began before the end of
+  ///                       the engagement; then it is held where that cycle left it
+  void follow(const DeviceState& device, const Pose& god_object, double seconds,
+              bool still_follows = false) noexcept;
 
   [[nodiscard]] const Pose& target() const noexcept { return target_; }
   [[nodiscard]] bool is_engaged() const noexcept { return is_engaged_; }
@@ -45,7 +48,7 @@ class TargetFollower {
   [[nodiscard]] Pose moved(const Pose& from, const Eigen::Vector3d& way,
                            const Eigen::Quaterniond& R_WB) const noexcept;
   [[nodiscard]] Pose mapped(const Pose& X_DH) const noexcept;
-  void disengage(bool was_engaged, const Pose& god_object) noexcept;
+  void disengage(bool moves_on, const Pose& god_object) noexcept;
   void drive(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
 
   DeviceMapping mapping_;
