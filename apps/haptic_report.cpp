@@ -103,7 +103,8 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
                                                 : "felt; no tool passed through anything");
   text += answer_line(
       "ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", ticks_, cycles_));
-  text += answer_line("apart", apart_text(clearance_));
+  text += answer_line("apart", clearance_ > 0.0 ? apart_text(clearance_)
+                                                : "not proven: places are too far for doubles");
   text += answer_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
   text += answer_line("force", fmt::format("at most {:.4g} N and {:.4g} N m{}{}", force_, torque_,
                                            undriven.empty() ? "" : "; ", undriven));

@@ -388,6 +388,46 @@ TEST(ContactLoop, RefusesToStartInsideAndNamesBoth) {
   EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
 }
 
+TEST(ContactLoop, SaysThatAContactDistanceIsTooLarge) {
+  for (const double distance : {1.0, 1e6, 1e300}) {
+    HapticScene scene = cube_on_floor();
+    scene.contact_distance = distance;
+    try {
+      const ContactLoop loop(scene);
+      FAIL() << distance;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("a tenth of the contact distance"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(ContactLoop, RefusesACentreSoFarThatNothingIsProven) {
+  HapticScene scene = cube_on_floor();
+  scene.tools[0].p_BC = {1e9, 0.0, 0.0};
+  EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
+}
+
+// Farther off, rounding would exceed the contact distance, and a clearance of 0 be all that holds.
+TEST(ContactLoop, GoesNoFartherThanItsClearanceIsProven) {
+  for (const double far : {1e6, 1e9, 1e12}) {
+    ContactLoop loop(cube_on_floor());
+    Pose target = loop.pose(0);
+    target.position.x() = far;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GT(loop.advance(std::array{target}, 1e-3, 0).clearance, 0.0) << far;
+    }
+    const double went = loop.pose(0).position.x();
+    EXPECT_GT(went, 0.99 * std::min(far, 1e-5 * 0x1p40)) << far;
+    target.position.x() = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GT(loop.advance(std::array{target}, 1e-3, 0).clearance, 0.0) << far;
+    }
+    EXPECT_NEAR(loop.pose(0).position.x(), 0.0, 1e-6) << far;
+  }
+}
+
 TEST(ContactLoop, NamesTheContactDistanceOfAToolOfOnePoint) {
   const auto refusal = [](std::optional<double> distance) -> std::string {
     HapticScene scene = cube_on_floor();

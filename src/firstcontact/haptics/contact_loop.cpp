@@ -68,6 +68,7 @@ void ContactLoop::Implementation::begin_members() {
   };
   for (const HapticTool& tool : scene_.tools) {
     least_reach = std::min(least_reach, add(tool.shape, tool.X_WB, tool.friction));
+    extent = std::max(extent, tool.p_BC.norm());
   }
   for (const HapticBody& body : scene_.bodies) {
     const double reach =
@@ -82,7 +83,9 @@ void ContactLoop::Implementation::begin_members() {
       "a tool of one point has no default of \"contact_distance\": give it in metres");
   detail::require_haptic(distance_ >= detail::kLeastContactDistanceOfExtent * extent,
                          "\"contact_distance\" is too small to be proven at coordinates of " +
-                             detail::shortest(extent) + " m: give a larger one");
+                             detail::shortest(extent) +
+                             " m, of poses or of a tool's centre: give a larger one");
+  farthest_ = distance_ / detail::kLeastContactDistanceOfExtent;
   finder_ = detail::ContactFinder(distance_);
 }
 
@@ -129,14 +132,15 @@ void ContactLoop::Implementation::require_start() {
     const std::string mend = tool_of(tool) == tool_of(other)
                                  ? "; links that overlap by design have to be ignored as a pair"
                                  : "";
-    const FirstContactResult start =
-        first_contact(A, B, workspace_, {.tolerance = 1e-3 * distance_});
-    detail::require_haptic(start.verdict == Verdict::free, names + " meet at the start" + mend);
     const double gap = distance(A, B, 0.0, workspace_).lower_bound;
-    detail::require_haptic(gap >= 0.1 * distance_,
+    detail::require_haptic(!(gap > 0.0 && gap < 0.1 * distance_),
                            names +
                                " start nearer to each other than a tenth of the contact "
                                "distance: choose a smaller one, or part them");
+    const FirstContactResult start =
+        first_contact(A, B, workspace_, {.tolerance = 1e-3 * distance_});
+    detail::require_haptic(gap > 0.0 && start.verdict == Verdict::free,
+                           names + " meet at the start" + mend);
     rest_clearance_ = std::min(rest_clearance_, gap);
   }
 }

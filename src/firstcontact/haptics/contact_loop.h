@@ -126,7 +126,8 @@ class FIRSTCONTACT_API ContactLoop {
 
   /// Runs a cycle. The result holds until the next one.
   ///
-  /// @param targets   of each tool; joints stop at their limits
+  /// @param targets   of each tool; joints stop at their limits. A tool goes at most 2^40 contact
+  ///                  distances from the world's origin: farther off nothing could be proven
   /// @param dt        [s]  > 0; the environment moves for this time
   /// @param stamp_ns  [ns]  goes into the contact set of this cycle
   /// @param deadline  no round begins after it; a search that runs then stops with what is proven

@@ -150,6 +150,7 @@ class ContactLoop::Implementation {
   detail::ToolFrames frames_;
   bool may_part_ = true;         // False after a plan to part was in vain in this cycle.
   bool is_parting_ = false;      // Whether the plan only parts.
+  double farthest_ = 0.0;        // [m]  Distance from the world's origin to which tools go.
   double rest_clearance_ = 0.0;  // [m]  Proven at the present poses.
   bool are_courses_moving_ = false;
   /// [-]  The share of the time of a round in which courses move on; less without room.

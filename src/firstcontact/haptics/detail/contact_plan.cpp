@@ -15,6 +15,16 @@
 
 namespace firstcontact {
 
+namespace {
+
+/// [m]  Shortens a place to a distance from the origin.
+Eigen::Vector3d within(double farthest, const Eigen::Vector3d& place) {
+  const double length = place.norm();
+  return length > farthest ? Eigen::Vector3d(farthest / length * place) : place;
+}
+
+}  // namespace
+
 /// Computes the displacements to the targets, or to a fraction of the way from the targets of the
 /// last cycle to these. So hands and courses move at the same time.
 detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTargets& targets,
@@ -30,10 +40,11 @@ detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTarget
   for (std::size_t k = 0; k < tools(); ++k) {
     const Vector3d& p_BC = scene_.tools[k].p_BC;
     Eigen::Quaterniond R_WB = targets.poses[k].rotation.normalized();
-    Vector3d target = targets.poses[k].position + R_WB * p_BC;
+    Vector3d target = within(farthest_, targets.poses[k].position + R_WB * p_BC);
     if (back > 0.0) {
       const Eigen::Quaterniond before = last_targets_[k].rotation.normalized();
-      target += back * (last_targets_[k].position + before * p_BC - target);
+      const Vector3d from = within(farthest_, last_targets_[k].position + before * p_BC);
+      target += back * (from - target);
       R_WB = detail::turn_by(back * detail::turn_between(R_WB, before)) * R_WB;
     }
     ways[k].translation = target - centre(k);
