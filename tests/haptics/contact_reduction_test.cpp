@@ -1,6 +1,7 @@
 // Few contacts in place of many: what they allow.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -220,6 +221,40 @@ TEST(Reduction, ClaimsALargerAngleWhereFewAreAllowed) {
   const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 8);
   EXPECT_LE(reduced.kept.size(), 8U);
   EXPECT_GT(reduced.angle, 0.0175);
+}
+
+// Without time nothing is claimed, but the ends of a line of contacts are kept.
+TEST(Reduction, KeepsTheOutermostWhereItsTimeIsOver) {
+  ToolFrames frames;
+  frames.lengths = {0.03, 0.03};
+  std::vector<HapticContact> line(200);
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    line[k].point = {1e-4 * static_cast<double>(k), 0.0, 0.0};
+    line[k].gap = 1e-6 + 1e-9 * static_cast<double>(k % 7);
+    line[k].friction = 0.3;
+  }
+  const ReducedContacts reduced =
+      reduce_contacts(line, frames, 1, 0.0175, 8, std::chrono::steady_clock::time_point{});
+  EXPECT_EQ(reduced.kept.size(), 8U);
+  EXPECT_EQ(reduced.angle, std::numbers::pi);
+  EXPECT_LE(reduced.kept.front(), 10U);
+  EXPECT_GE(reduced.kept.back(), 189U);
+}
+
+// A cylinder that lies on a plate: the ends of the line are enough.
+TEST(Reduction, KeepsTheEndsOfALine) {
+  ToolFrames frames;
+  frames.lengths = {0.03, 0.03};
+  std::vector<HapticContact> line(200);
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    line[k].point = {1e-4 * static_cast<double>(k), 0.0, 0.0};
+    line[k].gap = 1e-6 + 1e-9 * static_cast<double>(k * 37 % 101);
+    line[k].friction = 0.3;
+  }
+  const ReducedContacts reduced = reduce_contacts(line, frames, 1, 0.0175, 32);
+  EXPECT_LE(reduced.kept.size(), 5U);
+  EXPECT_EQ(reduced.kept.front(), 0U);
+  EXPECT_EQ(reduced.kept.back(), 199U);
 }
 
 }  // namespace

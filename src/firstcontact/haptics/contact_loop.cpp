@@ -172,6 +172,7 @@ void ContactLoop::Implementation::find_contacts() {
     return;
   }
   touches_.clear();
+  reduced_.reset();
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!placed_[m]) {
       placed_[m].emplace(members_[m].shape, poses_[m]);

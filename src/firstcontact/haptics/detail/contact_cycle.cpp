@@ -353,6 +353,7 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
                                                         const std::optional<Deadline>& deadline) {
   require_targets(targets, dt);
   const FloatEnvironmentGuard guard;
+  deadline_ = deadline;
   begin_cycle(dt);
   bool goes_on = true;
   while (goes_on && cycle_.rounds < options_.rounds && now_ < dt) {
@@ -373,7 +374,8 @@ void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
   set_.sequence += 1;
   set_.stamp_ns = stamp_ns;
   set_.tools = static_cast<std::uint32_t>(tools());
-  detail::list_contacts(touches_, frames_, tools(), options_, set_, cycle_.touches);
+  detail::list_contacts(touches_, reduced_touches(), frames_, tools(), options_, set_,
+                        cycle_.touches);
   for (std::size_t k = 0; k < tools(); ++k) {
     set_.X_WB[k] = poses_[k];
     set_.p_WC[k] = frames_.p_WC[k];

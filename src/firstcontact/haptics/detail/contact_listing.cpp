@@ -1,25 +1,33 @@
 #include <firstcontact/haptics/detail/contact_listing.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
 
 #include <firstcontact/haptics/detail/contact_reduction.h>
 
 namespace firstcontact::detail {
 
-void list_contacts(const std::vector<HapticTouch>& touches, const ToolFrames& frames,
-                   std::size_t tools, const ContactLoopOptions& options, HapticContactSet& set,
-                   std::vector<HapticTouch>& listed) {
-  ReducedContacts reduced;
-  if (touches.size() > options.most_contacts) {
-    std::vector<HapticContact> contacts;
-    for (const HapticTouch& touch : touches) {
-      contacts.push_back(touch.contact);
-    }
-    reduced = reduce_contacts(contacts, frames, tools, options.angle, options.most_contacts);
-  } else {
+void list_contacts(const std::vector<HapticTouch>& touches, const ReducedContacts& projected,
+                   const ToolFrames& frames, std::size_t tools, const ContactLoopOptions& options,
+                   HapticContactSet& set, std::vector<HapticTouch>& listed) {
+  ReducedContacts reduced = projected;
+  if (touches.size() <= options.most_contacts) {
+    reduced = {};
     reduced.kept.resize(touches.size());
     std::iota(reduced.kept.begin(), reduced.kept.end(), std::size_t{0});
+  } else if (reduced.kept.size() > options.most_contacts) {
+    std::vector<HapticContact> contacts;
+    for (const std::size_t k : projected.kept) {
+      contacts.push_back(touches[k].contact);
+    }
+    reduced = reduce_contacts(contacts, frames, tools, options.angle, options.most_contacts);
+    for (std::size_t& k : reduced.kept) {
+      k = projected.kept[k];
+    }
+    // Angles to cones add up.
+    reduced.angle = std::min(std::numbers::pi, reduced.angle + projected.angle);
   }
   set.count = static_cast<std::uint32_t>(reduced.kept.size());
   set.full_count = static_cast<std::uint32_t>(touches.size());

@@ -15,6 +15,7 @@
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_coordinates.h>
 #include <firstcontact/haptics/detail/contact_finder.h>
+#include <firstcontact/haptics/detail/contact_reduction.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/last_round.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
@@ -90,7 +91,7 @@ class ContactLoop::Implementation {
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
   [[nodiscard]] double straight_slot(double slot) const;
   void set_courses(double slot);
-  [[nodiscard]] std::vector<std::size_t> projected_touches() const;
+  [[nodiscard]] const detail::ReducedContacts& reduced_touches();
   [[nodiscard]] detail::PlannedTouch planned(const HapticTouch& of) const;
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_within_turn(const detail::ToolDisplacements& wanted);
@@ -140,6 +141,8 @@ class ContactLoop::Implementation {
   FirstContactResult scratch_;
   bool is_found_ = false;  // Whether the contacts are those of the present poses.
   std::vector<HapticTouch> touches_;
+  std::optional<detail::ReducedContacts> reduced_;  // The touches, once they are reduced.
+  std::optional<Deadline> deadline_;                // Of the cycle.
   std::vector<detail::PlannedTouch> planned_;
   detail::LastRound last_round_;
   // Targets of the last cycle; empty before.

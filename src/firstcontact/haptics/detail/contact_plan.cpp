@@ -65,20 +65,23 @@ double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& way
   return gain;
 }
 
-/// Finds the touches that a projection takes.
-std::vector<std::size_t> ContactLoop::Implementation::projected_touches() const {
-  if (touches_.size() > detail::kMostProjected) {
-    std::vector<HapticContact> contacts;
-    for (const HapticTouch& touch : touches_) {
-      contacts.push_back(touch.contact);
+/// Reduces the touches to those that projections take, once for each place of the tools.
+const detail::ReducedContacts& ContactLoop::Implementation::reduced_touches() {
+  if (!reduced_) {
+    reduced_.emplace();
+    if (touches_.size() > detail::kMostProjected) {
+      std::vector<HapticContact> contacts;
+      for (const HapticTouch& touch : touches_) {
+        contacts.push_back(touch.contact);
+      }
+      reduced_ = detail::reduce_contacts(contacts, frames_, tools(), options_.angle,
+                                         detail::kMostProjected, deadline_);
+    } else {
+      reduced_->kept.resize(touches_.size());
+      std::iota(reduced_->kept.begin(), reduced_->kept.end(), std::size_t{0});
     }
-    return detail::reduce_contacts(contacts, frames_, tools(), options_.angle,
-                                   detail::kMostProjected)
-        .kept;
   }
-  std::vector<std::size_t> all(touches_.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
+  return *reduced_;
 }
 
 detail::PlannedTouch ContactLoop::Implementation::planned(const HapticTouch& of) const {
@@ -103,14 +106,14 @@ detail::PlannedTouch ContactLoop::Implementation::planned(const HapticTouch& of)
 
 detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
   planned_.clear();
-  for (const std::size_t k : projected_touches()) {
+  for (const std::size_t k : reduced_touches().kept) {
     planned_.push_back(planned(touches_[k]));
   }
   for (const HapticTouch& touch : left_) {
     planned_.push_back(planned(touch));
   }
-  detail::GodObjectPlan plan =
-      detail::plan_god_objects(wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_);
+  detail::GodObjectPlan plan = detail::plan_god_objects(
+      wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_, deadline_.has_value());
   for (Displacement& way : plan.displacements.tools) {
     if (!way.translation.allFinite() || !way.rotation_vector.allFinite()) {
       way = {};

@@ -2,34 +2,40 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
 
 #include <firstcontact/haptics/detail/cone_projection.h>
+#include <firstcontact/haptics/detail/row_cone.h>
 
 namespace firstcontact::detail {
 namespace {
 
-/// [pivots]  Most pivots of one projection on a cone.
-constexpr int kPivotsOfRow = 60;
+using Deadline = std::chrono::steady_clock::time_point;
+using Row = std::array<double, kMostCoordinates>;
 
-/// [-]  Tolerance of the projection of a row of unit length.
-constexpr double kToleranceOfRow = 1e-12;
+/// [contacts]  Contacts between two looks at the clock.
+constexpr std::size_t kBetweenLooks = 8;
 
 /// The unit rows of a contact: that of its normal, and with friction the four edges of its cone.
 struct ContactRows {
-  Coordinates normal = {};
-  std::array<Coordinates, 4> edges = {};
+  Row normal = {};
+  std::array<Row, 4> edges = {};
   std::size_t count = 0;  ///< Number of edges: 0 or 4.
 };
 
-double product(const Coordinates& a, const Coordinates& b, std::size_t n) {
-  return std::inner_product(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(n), b.begin(), 0.0);
+double product(const Row& a, const Row& b, std::size_t n) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    sum += a[k] * b[k];
+  }
+  return sum;
 }
 
-Coordinates unit(Coordinates row, std::size_t n) {
+Row unit(Row row, std::size_t n) {
   const double length = std::sqrt(product(row, row, n));
   for (std::size_t k = 0; k < n; ++k) {
     row[k] /= length;
@@ -46,7 +52,7 @@ ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std:
   }
   for (std::size_t edge = 0; edge < 4; ++edge) {
     const double mu = edge % 2 == 0 ? cone.friction : -cone.friction;
-    Coordinates row = cone.rows[0];
+    Row row = cone.rows[0];
     for (std::size_t k = 0; k < n; ++k) {
       row[k] += mu * cone.rows[1 + edge / 2][k];
     }
@@ -59,21 +65,21 @@ ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std:
 /// The contacts that are kept with one angle.
 class Reduction {
  public:
-  Reduction(std::size_t coordinates, double angle, std::size_t most)
+  Reduction(std::size_t coordinates, double angle)
       : n_(coordinates),
         cosine_(std::cos(kShare * angle)),
         sine_(std::sin(kShare * angle)),
-        normals_(coordinates, most),
-        edges_(coordinates, 4 * most) {}
+        normals_(coordinates),
+        edges_(coordinates) {}
 
   /// Whether kept normals span the normal, and kept edges the edges. So friction does not keep a
   /// contact whose normal is spanned.
   [[nodiscard]] bool spans(const ContactRows& contact) {
-    if (!spans(normals_, contact.normal)) {
+    if (!normals_.is_near(contact.normal, sine_)) {
       return false;
     }
     for (std::size_t k = 0; k < contact.count; ++k) {
-      if (!spans(edges_, contact.edges[k])) {
+      if (!edges_.is_near(contact.edges[k], sine_)) {
         return false;
       }
     }
@@ -82,12 +88,12 @@ class Reduction {
 
   /// Whether each row is near that of one seen contact.
   [[nodiscard]] bool is_like_another(const ContactRows& contact) const {
-    return std::ranges::any_of(seen_, [&](const ContactRows& other) {
-      if (other.count != contact.count || !are_near(other.normal, contact.normal)) {
+    return std::ranges::any_of(seen_, [&](const ContactRows* other) {
+      if (other->count != contact.count || !are_near(other->normal, contact.normal)) {
         return false;
       }
       for (std::size_t k = 0; k < contact.count; ++k) {
-        if (!are_near(other.edges[k], contact.edges[k])) {
+        if (!are_near(other->edges[k], contact.edges[k])) {
           return false;
         }
       }
@@ -95,12 +101,13 @@ class Reduction {
     });
   }
 
-  void see(const ContactRows& contact) { seen_.push_back(contact); }
+  /// Adds a contact to those that were seen; `contact` outlives this.
+  void see(const ContactRows& contact) { seen_.push_back(&contact); }
 
   void keep(const ContactRows& contact) {
-    normals_.add({.rows = {contact.normal, {}, {}}});
+    normals_.add(contact.normal);
     for (std::size_t k = 0; k < contact.count; ++k) {
-      edges_.add({.rows = {contact.edges[k], {}, {}}});
+      edges_.add(contact.edges[k]);
     }
   }
 
@@ -109,76 +116,97 @@ class Reduction {
   /// the cone. Both together stay below the angle, rounding included.
   static constexpr double kShare = 0.499;
 
-  [[nodiscard]] bool are_near(const Coordinates& a, const Coordinates& b) const {
+  [[nodiscard]] bool are_near(const Row& a, const Row& b) const {
     return product(a, b, n_) >= cosine_;
-  }
-
-  bool spans(ConeProjection& cone, const Coordinates& row) {
-    Coordinates against{};
-    for (std::size_t k = 0; k < n_; ++k) {
-      against[k] = -row[k];
-    }
-    const ConeProjectionResult rest = cone.project(against, kToleranceOfRow, kPivotsOfRow);
-    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= sine_;
   }
 
   std::size_t n_;
   double cosine_;
   double sine_;
-  ConeProjection normals_;
-  ConeProjection edges_;
-  std::vector<ContactRows> seen_;
+  RowCone normals_;
+  RowCone edges_;
+  std::vector<const ContactRows*> seen_;
 };
 
-/// Finds the contacts that are kept with one angle; none where they are more than permitted.
-std::optional<std::vector<std::size_t>> kept_within(const std::vector<ContactRows>& rows,
-                                                    const std::vector<std::size_t>& order,
-                                                    std::size_t coordinates, double angle,
-                                                    std::size_t most) {
-  Reduction reduction(coordinates, angle, most);
-  std::vector<std::size_t> kept;
+/// The outcome of a reduction with one angle.
+enum class Outcome { done, too_many, late };
+
+/// Finds the contacts that are kept with one angle.
+Outcome keep_within(const std::vector<ContactRows>& rows, const std::vector<std::size_t>& order,
+                    std::size_t coordinates, double angle, std::size_t most,
+                    const std::optional<Deadline>& deadline, std::vector<std::size_t>& kept) {
+  Reduction reduction(coordinates, angle);
+  kept.clear();
+  std::size_t looked = 0;
   for (const std::size_t c : order) {
     if (reduction.is_like_another(rows[c])) {
       continue;
+    }
+    if (deadline && looked++ % kBetweenLooks == 0 &&
+        std::chrono::steady_clock::now() >= *deadline) {
+      return Outcome::late;
     }
     reduction.see(rows[c]);
     if (reduction.spans(rows[c])) {
       continue;
     }
     if (kept.size() == most) {
-      return {};
+      return Outcome::too_many;
     }
     kept.push_back(c);
     reduction.keep(rows[c]);
   }
-  return kept;
+  return Outcome::done;
+}
+
+/// Orders contacts so that each one is far from those before it. The outermost come first, and
+/// span those between. The first one is the nearest; behind the first `spread` the order is that of
+/// gaps.
+std::vector<std::size_t> spread_order(std::span<const HapticContact> contacts,
+                                      const std::vector<ContactRows>& rows, std::size_t coordinates,
+                                      std::size_t spread) {
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t c) { return contacts[c].gap; });
+  std::vector<double> nearest(contacts.size(), -2.0);  // Greatest cosine to one before.
+  for (std::size_t k = 0; k + 1 < order.size() && k < spread; ++k) {
+    const Row& last = rows[order[k]].normal;
+    std::size_t farthest = k + 1;
+    for (std::size_t i = k + 1; i < order.size(); ++i) {
+      double& cosine = nearest[order[i]];
+      cosine = std::max(cosine, product(last, rows[order[i]].normal, coordinates));
+      farthest = cosine < nearest[order[farthest]] ? i : farthest;
+    }
+    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(k + 1),
+                order.begin() + static_cast<std::ptrdiff_t>(farthest),
+                order.begin() + static_cast<std::ptrdiff_t>(farthest + 1));
+  }
+  return order;
 }
 
 }  // namespace
 
-ReducedContacts reduce_contacts(std::span<const HapticContact> contacts, const ToolFrames& frames,
-                                std::size_t tools, double angle, std::size_t most) {
+ReducedContacts reduce_contacts(
+    std::span<const HapticContact> contacts, const ToolFrames& frames, std::size_t tools,
+    double angle, std::size_t most,
+    const std::optional<std::chrono::steady_clock::time_point>& deadline) {
   const std::size_t coordinates = frames.coordinates(tools);
   std::vector<ContactRows> rows;
   rows.reserve(contacts.size());
   for (const HapticContact& contact : contacts) {
     rows.push_back(rows_of(contact, frames, coordinates));
   }
-  std::vector<std::size_t> order(contacts.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t c) { return contacts[c].gap; });
+  const std::vector<std::size_t> order = spread_order(contacts, rows, coordinates, most);
   ReducedContacts reduced{.kept = {}, .angle = angle};
-  while (true) {
-    if (auto kept = kept_within(rows, order, coordinates, reduced.angle, most)) {
-      reduced.kept = std::move(*kept);
-      break;
-    }
-    reduced.angle *= 2.0;
-    if (reduced.angle >= std::numbers::pi / 2.0) {  // Nothing is claimed: the nearest are kept.
-      reduced.angle = std::numbers::pi;
-      reduced.kept.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
-      break;
-    }
+  Outcome outcome = Outcome::too_many;
+  while (outcome == Outcome::too_many && reduced.angle < std::numbers::pi / 2.0) {
+    outcome = keep_within(rows, order, coordinates, reduced.angle, most, deadline, reduced.kept);
+    reduced.angle *= outcome == Outcome::too_many ? 2.0 : 1.0;
+  }
+  if (outcome != Outcome::done) {  // Nothing is claimed: the most different ones are kept.
+    reduced.angle = std::numbers::pi;
+    reduced.kept.assign(order.begin(),
+                        order.begin() + static_cast<std::ptrdiff_t>(std::min(most, order.size())));
   }
   std::ranges::sort(reduced.kept);
   if (reduced.kept.size() == contacts.size()) {

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,12 +33,14 @@ struct ReducedContacts {
 /// contacts. Normals are so for the cone of normals, edges for that of edges. Angles to a convex
 /// cone add up as those between directions. So row = sum of shares row_k + rest, with shares >= 0
 /// and |rest| <= sin(angle) |row|, and row . x >= rest . x. The rest is that of a projection on the
-/// cone (ConeProjection).
+/// cone (RowCone).
 ///
 /// @param angle  [rad]  > 0; it is doubled until no more than `most` are kept
 /// @param most   1 to kMostHapticContacts
-[[nodiscard]] ReducedContacts reduce_contacts(std::span<const HapticContact> contacts,
-                                              const ToolFrames& frames, std::size_t tools,
-                                              double angle, std::size_t most);
+/// @param deadline  after it nothing is claimed (angle pi), and contacts that differ most are kept
+[[nodiscard]] ReducedContacts reduce_contacts(
+    std::span<const HapticContact> contacts, const ToolFrames& frames, std::size_t tools,
+    double angle, std::size_t most,
+    const std::optional<std::chrono::steady_clock::time_point>& deadline = {});
 
 }  // namespace firstcontact::detail

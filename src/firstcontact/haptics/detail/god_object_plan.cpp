@@ -227,15 +227,23 @@ bool plan_by_cuts(const ToolDisplacements& wanted, const ToolFrames& frames, std
   return found.is_solved;
 }
 
+/// [sweeps]  Sweeps of the large solver where a deadline is near. Contacts that contradict each
+/// other are not solved by more of them either.
+constexpr int kSweepsOfQuickPlan = 60;
+
 /// Plans by the solver of the simulator, which copes better with many contacts and contradictions.
 GodObjectPlan plan_by_solver(const ToolDisplacements& wanted, const ToolFrames& frames,
                              std::size_t tools, const std::vector<PlannedTouch>& touches,
-                             double nearest, double residual) {
+                             double nearest, double residual, bool is_quick) {
   GodObjectPlan plan;
   ContactSolution solution;
+  ProjectionOptions options{.tolerance = residual};
+  if (is_quick) {
+    options.space = ProjectionSpace::contact;
+    options.sweeps = kSweepsOfQuickPlan;
+  }
   for (const double least_way : {nearest, 0.0}) {
-    solution = project_on_contacts(problem_of(wanted, frames, tools, touches, least_way),
-                                   {.tolerance = residual});
+    solution = project_on_contacts(problem_of(wanted, frames, tools, touches, least_way), options);
     if (solution.residual <= solution.allowed || !(nearest < 0.0)) {
       break;
     }
@@ -328,7 +336,7 @@ bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
 
 GodObjectPlan plan_god_objects(const ToolDisplacements& wanted, const ToolFrames& frames,
                                std::size_t tools, const std::vector<PlannedTouch>& touches,
-                               double residual) {
+                               double residual, bool is_quick) {
   if (touches.empty()) {
     return {.displacements = wanted};
   }
@@ -340,7 +348,7 @@ GodObjectPlan plan_god_objects(const ToolDisplacements& wanted, const ToolFrames
       (nearest < 0.0 && plan_by_cuts(wanted, frames, tools, touches, 0.0, residual, plan))) {
     return plan;
   }
-  return plan_by_solver(wanted, frames, tools, touches, nearest, residual);
+  return plan_by_solver(wanted, frames, tools, touches, nearest, residual, is_quick);
 }
 
 }  // namespace firstcontact::detail

@@ -69,10 +69,11 @@ struct GodObjectPlan {
 /// (ConeProjection), else project_on_contacts().
 ///
 /// @param residual  [m]  to be reached; > 0
+/// @param is_quick  whether little time is left, so that project_on_contacts() only sweeps
 [[nodiscard]] GodObjectPlan plan_god_objects(const ToolDisplacements& wanted,
                                              const ToolFrames& frames, std::size_t tools,
                                              const std::vector<PlannedTouch>& touches,
-                                             double residual);
+                                             double residual, bool is_quick = false);
 
 /// [m]  Computes the displacement of the tool at a touch relative to the other surface, to first
 /// order.
