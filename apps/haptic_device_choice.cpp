@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 
@@ -160,6 +161,16 @@ int grips_of_device(const DeviceMapping& mapping) {
     count = mapping.grips[k].button < 0 ? static_cast<int>(k) + 1 : count;
   }
   return count;
+}
+
+double radius_of_hand(double radius, double scale) {
+  constexpr double kFarthest = 1e6;  // [m]  Of a device's poses.
+  if (!(radius / scale <= kFarthest)) {
+    throw std::invalid_argument(
+        fmt::format("--radius: expected at most {:.6g} m, got {:.6g}; the handle goes to 1e6 m",
+                    kFarthest * scale, radius));
+  }
+  return radius / scale;
 }
 
 std::unique_ptr<Device> open_device(const DeviceChoice& choice,

@@ -53,6 +53,12 @@ using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptio
 /// The number of grip values that a device has to sense: up to the last that no button closes.
 [[nodiscard]] int grips_of_device(const DeviceMapping& mapping);
 
+/// [m]  The radius of the ball in which a simulated hand moves its handle.
+///
+/// @param radius  [m]  of the ball to which it leads the tool
+/// @throws std::invalid_argument  where the handle would go beyond the poses of a device
+[[nodiscard]] double radius_of_hand(double radius, double scale);
+
 /// Opens the device.
 ///
 /// @param hand  options of a simulated hand

@@ -117,13 +117,7 @@ SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const Haptic
   RandomPathOptions path;
   path.seed = arguments.seed + 1000 * number;
   const double reach = tool.shape.bounds().reach + tool.shape.radius();
-  constexpr double kFarthest = 1e6;  // [m]  Of a device's poses.
-  if (arguments.radius && !(*arguments.radius / mapping.scale <= kFarthest)) {
-    throw std::invalid_argument(fmt::format(
-        "--radius: expected at most {:.6g} m, got {:.6g}: the hand would go beyond 1e6 m",
-        kFarthest * mapping.scale, *arguments.radius));
-  }
-  path.radius = arguments.radius.value_or(2.0 * reach) / mapping.scale;
+  path.radius = radius_of_hand(arguments.radius.value_or(2.0 * reach), mapping.scale);
   path.fastest = arguments.speed.value_or(1.0);
   path.slowest = std::min(path.slowest, path.fastest);
   path.centre = mapping.X_DH;

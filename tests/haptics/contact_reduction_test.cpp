@@ -218,8 +218,8 @@ TEST(Reduction, KeepsItsAngleWithAndWithoutFriction) {
 
 TEST(Reduction, ClaimsALargerAngleWhereFewAreAllowed) {
   const auto contacts = thread_contacts(2000, 0.3, true);
-  const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 8);
-  EXPECT_LE(reduced.kept.size(), 8U);
+  const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 4);
+  EXPECT_LE(reduced.kept.size(), 4U);
   EXPECT_GT(reduced.angle, 0.0175);
 }
 
