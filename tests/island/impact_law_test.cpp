@@ -220,5 +220,36 @@ TEST(Belt, HoldsAWheelThatRollsAgainstIt) {
   EXPECT_NEAR(end.angular_velocity.y(), 6.0, 1e-2);
 }
 
+/// A capsule along y, or a box, whose top at z = 0 runs along x.
+std::string running(const std::string& name, double x, double velocity, bool is_round) {
+  const std::string shape =
+      is_round ? R"({"capsule": {"radius": 0.1, "length": 0.6}})" : box("[0.3, 0.6, 0.2]");
+  const std::string turn = is_round ? R"(, "rpy": [1.5707963267948966, 0, 0])" : "";
+  return R"({"name": ")" + name + R"(", "shape": )" + shape + R"(, "pose": {"position": )" +
+         numbers({x, 0.0, -0.1}) + turn + R"(}, "surface": {"velocity": )" +
+         numbers({velocity, 0.0, 0.0}) + "}}";
+}
+
+// Timoshenko's plank, on rollers or belts that run against each other. All of its contacts slide:
+// unequal shares of its weight on one side would turn it.
+TEST(Belt, TwoAgainstEachOtherDoNotTurnAPlank) {
+  for (const bool is_round : {true, false}) {
+    for (const double speed : {2.0, -2.0}) {
+      Simulator s =
+          simulator(running("left", -0.4, speed, is_round) + ", " +
+                        running("right", 0.4, -speed, is_round) + ", " +
+                        body("plank", box("[2, 0.3, 0.04]"), "[0, 0, 0.02001]",
+                             R"(, "dynamics": {"mass": 1, "linear_velocity": [0.1, 0, 0]})"),
+                    settings(0.01, 0.3, 1e-5));
+      const std::size_t steps = speed > 0.0 ? 200 : 40;
+      for (const RunStep& step : run(s, steps)) {
+        const RunBody& plank = step.bodies[0];
+        EXPECT_NEAR(plank.angular_velocity.z(), 0.0, 1e-3) << is_round << speed << step.index;
+        EXPECT_NEAR(plank.X_WB.position.y(), 0.0, 1e-5) << is_round << speed << step.index;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -164,7 +164,11 @@ struct ContactSolution {
 /// and the energy of their compliances adds to the minimised quantity.
 ///
 /// Without friction the velocities are unique. The impulses are unique only without redundant
-/// contacts.
+/// contacts. Where the laws leave a choice to few contacts, the automatic answer has impulses of
+/// least norm. So a symmetric problem has a symmetric answer. Few means a sum of at most twelve: a
+/// contact that slides counts one, a contact that sticks three. Friction that sticks goes with the
+/// normal impulses where least norm alone would leave the cone. Guesses that solve the problem stay
+/// as they are.
 ///
 /// Projected Gauss-Seidel: each contact is solved in turn, with all others held, until none
 /// changes. After each sweep there and back the method goes on in the direction of the sweeps

@@ -12,6 +12,7 @@
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
+#include <firstcontact/contact_solver/detail/least_norm.h>
 #include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 #include <firstcontact/math/number_text.h>
 
@@ -156,7 +157,11 @@ class Solver {
   }
 
   ContactSolution solve() {
-    if (is_solved(projection_) || sweep_first()) {
+    if (is_solved(projection_)) {
+      return solution(projection_, ProjectionSpace::contact);
+    }
+    if (sweep_first()) {
+      share_evenly();
       return solution(projection_, ProjectionSpace::contact);
     }
     if (are_many_redundant_) {
@@ -239,9 +244,16 @@ class Solver {
     return std::nullopt;
   }
 
+  void share_evenly() {
+    if (is_automatic_ && is_solved(projection_)) {
+      detail::share_evenly(rows_, options_.tolerance, projection_);
+    }
+  }
+
   ContactSolution by_multipliers() {
     const Projection before = projection_;
     detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
+    share_evenly();
     if (!is_solved(projection_) && is_automatic_ && !has_interior_ && !has_drives() &&
         are_unequal(problem_)) {
       by_interior_point_after_all();

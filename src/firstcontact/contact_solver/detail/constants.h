@@ -45,6 +45,27 @@ inline constexpr int kMostRoundsOfDeciding = 30;
 /// [-]  The set may have one of this many contacts at most; else it is not small.
 inline constexpr std::size_t kPartOfAll = 4;
 
+// Even shares.
+
+/// [contacts]  Most contacts of a problem whose impulses are shared evenly.
+inline constexpr std::size_t kMostToShare = 12;
+/// [shares]  Most shares: a contact that slides has one, a contact that sticks three. The work grows
+/// with the cube of the number.
+inline constexpr int kMostShares = 12;
+/// [-]  Rounds in which directions of friction and shares settle go on while each leaves at most this
+/// part of the residual before it.
+inline constexpr double kGainOfSharing = 0.2;
+/// [steps]  Most steps of an active set in a round, for each contact.
+inline constexpr std::size_t kStepsOfSharing = 3;
+/// [-]  A contact slides or opens if it is faster than so many tolerances.
+inline constexpr double kMovesOfTolerance = 10.0;
+/// [-]  Responses below this part of the greatest leave a choice of impulses.
+inline constexpr double kLeastPivotOfSharing = 1e-9;
+/// [-]  Shares below this part of the greatest are 0.
+inline constexpr double kZeroShare = 1e-12;
+/// [-]  Even shares are no longer than so many times the impulses that the solver found.
+inline constexpr double kMostLengthOfSharing = 1.5;
+
 // Contacts in batches.
 
 /// [contacts]  Fewer contacts are swept one by one.
