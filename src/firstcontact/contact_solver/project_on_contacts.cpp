@@ -11,6 +11,7 @@
 #include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/decoupled_ties.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
 #include <firstcontact/contact_solver/detail/least_norm.h>
 #include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
@@ -252,11 +253,21 @@ class Solver {
 
   ContactSolution by_multipliers() {
     const Projection before = projection_;
+    const std::optional<detail::DecoupledTies> ties = decoupled_ties();
+    if (ties && ties->least_left() < detail::kNearlyImplied) {
+      by_decoupled(*ties);
+      if (is_solved(projection_)) {
+        return solution(projection_, ProjectionSpace::motion);
+      }
+    }
     detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
     share_evenly();
     if (!is_solved(projection_) && is_automatic_ && !has_interior_ && !has_drives() &&
         are_unequal(problem_)) {
       by_interior_point_after_all();
+    }
+    if (!is_solved(projection_) && ties) {
+      by_decoupled(*ties);
     }
     return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
                                                   : solution(projection_, ProjectionSpace::motion);
@@ -269,6 +280,34 @@ class Solver {
     detail::project_by_interior_point(problem_, rows_, options_, inner);
     if (inner.residual < projection_.residual) {
       projection_ = std::move(inner);
+    }
+  }
+
+  /// Decouples the rigid ties; nothing where there are too few or too many.
+  [[nodiscard]] std::optional<detail::DecoupledTies> decoupled_ties() const {
+    if (problem_.ties.size() < 2 || moving_velocities(problem_) > detail::kMostForDecoupling) {
+      return std::nullopt;
+    }
+    detail::DecoupledTies ties(problem_, rows_);
+    return ties.empty() ? std::nullopt : std::optional(std::move(ties));
+  }
+
+  /// Tries multipliers for combinations of rigid ties. Without other rows there is nothing left for
+  /// them to do.
+  void by_decoupled(const detail::DecoupledTies& ties) {
+    ProjectionOptions options = options_;
+    options.tolerance /= static_cast<double>(problem_.ties.size());
+    Projection found = projection_;
+    found.impulses = ties.combined(std::move(found.impulses));
+    ties.meet(found);
+    if (!(found.residual <= options.tolerance)) {
+      detail::project_by_augmented_lagrangian(problem_, ties.rows(), options, found);
+      ties.meet(found);
+    }
+    found.impulses = ties.separate(std::move(found.impulses));
+    found.residual = detail::greatest_residual(rows_, found.impulses, found.velocities);
+    if (found.residual < projection_.residual) {
+      projection_ = std::move(found);
     }
   }
 

@@ -38,6 +38,13 @@ inline constexpr std::size_t kManyRedundant = 300;
 /// point goes on.
 inline constexpr double kUnequalMasses = 1e4;
 
+/// [velocities]  Size of the largest problem whose rigid ties are decoupled. Combinations of ties
+/// act on all of their bodies, so the work grows with the cube.
+inline constexpr std::size_t kMostForDecoupling = 120;
+/// [-]  Ties are decoupled at once where one has less than this of its response across the others.
+/// Larger: more problems lose the sparsity of their ties.
+inline constexpr double kNearlyImplied = 1e-6;
+
 // The active set.
 
 /// [rounds]  Rounds after which the current set gives the answer.

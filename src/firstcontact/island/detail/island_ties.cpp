@@ -266,7 +266,7 @@ bool tears_ties(IslandState& state, const Plan& plan, double span) {
       return false;  // The plan is followed until the cable is taut.
     }
     const double now = torn_at(state, tie, place);
-    const double most = std::max(state.model.distances.least, kTearing * now);
+    const double most = std::max(state.model.distances.least, now);
     return torn_at(state, tie, place_ahead(state, tie, plan, span, 1.0)) > most;
   });
 }

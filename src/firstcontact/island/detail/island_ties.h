@@ -71,7 +71,7 @@ void add_outer_of_ties(const ContactProblem& problem, const ContactSolution& sol
 [[nodiscard]] double share_within_cables(IslandState& state, const Plan& plan, double span);
 
 /// Whether joints are farther apart at the end of a plan than a contact distance, or taut cables
-/// longer by one.
+/// longer by one. Those that are already get no farther apart.
 ///
 /// This happens where a script pulls a body that cannot follow, and where a singular loop has no
 /// solution.

@@ -284,8 +284,6 @@ inline constexpr std::size_t kMostTautEvents = 20;
 inline constexpr double kMostTurnOfTied = 0.25;
 /// [rad]  A plan that turns a body with ties farther is wrong.
 inline constexpr double kWildTurnOfTied = 1e6;
-/// [-]  Greatest factor by which separated joints get farther apart in a plan.
-inline constexpr double kTearing = 2.0;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
 /// energy. Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTied = 1e-3;
