@@ -69,7 +69,7 @@ double inverse_mass_between(const TieRow& one, const TieRow& other, const Contac
   return sum;
 }
 
-std::vector<bool> find_redundant(const ContactProblem& problem) {
+std::vector<bool> find_redundant(const ContactProblem& problem, std::size_t first, double least) {
   MatrixXd L = response_of(problem);
   const Index n = L.rows();
   std::vector<bool> redundant(problem.ties.size(), false);
@@ -80,10 +80,16 @@ std::vector<bool> find_redundant(const ContactProblem& problem) {
     }
     const double left = L(k, k) - L.row(k).head(k).squaredNorm();
     const auto row = static_cast<std::size_t>(k);
-    redundant[row] = !(left > kRedundant * greatest_response(problem.ties[row], problem));
+    const double slight =
+        row < first ? kRedundant * greatest_response(problem.ties[row], problem) : least * L(k, k);
+    redundant[row] = !(left > slight);
     L(k, k) = redundant[row] ? 0.0 : std::sqrt(left);
   }
   return redundant;
+}
+
+std::vector<bool> find_redundant(const ContactProblem& problem) {
+  return find_redundant(problem, problem.ties.size(), kRedundant);
 }
 
 void take_out(TieRow& row) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
@@ -22,6 +23,13 @@ namespace firstcontact::detail {
 ///
 /// @param problem  with the rows as its ties: joints where bodies are now
 [[nodiscard]] std::vector<bool> find_redundant(const ContactProblem& problem);
+
+/// Finds them likewise, and which rows from the first one on have less than a part of their own
+/// response left across the rows before.
+///
+/// @param least  [-]  that part
+[[nodiscard]] std::vector<bool> find_redundant(const ContactProblem& problem, std::size_t first,
+                                               double least);
 
 /// Lets a row have no impulse.
 void take_out(TieRow& row);

@@ -168,6 +168,7 @@ class IslandPlanner {
   void forget_ties();
   [[nodiscard]] bool leads_nowhere(const Plan& plan) const;
   void shift_robots(Plan& plan) const;
+  [[nodiscard]] bool closes_gaps(const ContactSolution& way, double off) const;
   void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();

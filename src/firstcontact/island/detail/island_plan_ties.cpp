@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <firstcontact/contact_solver/detail/anderson_mixing.h>
@@ -189,8 +190,21 @@ void IslandPlanner::shift_robots(Plan& plan) const {
   }
 }
 
+/// Whether displacements close most of a gap [m], and are not far longer than it, as they are near
+/// a singular position.
+bool IslandPlanner::closes_gaps(const ContactSolution& way, double off) const {
+  double farthest = 0.0;     // [m]
+  double most_turned = 0.0;  // [rad]
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    farthest = std::max(farthest, way.bodies[k].v.norm());
+    most_turned = std::max(most_turned, way.bodies[k].w.norm());
+  }
+  return way.residual < off && farthest <= kFarthestOfGap * off && most_turned <= kMostTurnOfTied;
+}
+
 /// Adds displacements without velocity that bring joints of ties together, and cables back to their
-/// length, where the plan ends. They bring contacts no nearer.
+/// length, where the plan ends. They bring contacts no nearer. Stiff springs keep their lengths
+/// where that is possible, or they would get energy.
 void IslandPlanner::settle_ties(Plan& plan) const {
   if (state_.ties.empty()) {
     return;
@@ -210,29 +224,31 @@ void IslandPlanner::settle_ties(Plan& plan) const {
                                 .frame = contact.frame});
   }
   const double tolerance = kApartOfDistance * state_.model.distances.least;
+  std::optional<std::vector<PlanTies::LedSpring>> springs;
   for (int round = 0; round < kRoundsOfSettling; ++round) {
     state_.robots.set_moves(plan.robots, state_.states, span_, share_of_drift(), plan.moves);
     std::vector<Pose> at_end;
     for (std::size_t k = 0; k < state_.size(); ++k) {
       at_end.push_back(motion_of(state_.member(k), state_.states[k].X_WB, plan.moves[k]).pose(1.0));
     }
+    if (!springs) {
+      springs = ties_.led_springs(at_end);
+    }
     ContactProblem problem = resting;
-    const double off = ties_.add_settling(at_end, last_->velocities.ties, bodies_, problem);
+    double off = ties_.add_settling(at_end, last_->velocities.ties, bodies_, problem);
+    if (!springs->empty()) {
+      off = std::max(off, ties_.hold(*springs, at_end, bodies_, problem));
+    }
     if (!(off > tolerance)) {
       return;
     }
     const ContactSolution way = project_on_contacts(problem, {.tolerance = 0.1 * tolerance});
-    if (!(way.residual < off)) {
-      return;
-    }
-    double farthest = 0.0;     // [m]
-    double most_turned = 0.0;  // [rad]
-    for (std::size_t k = 0; k < state_.size(); ++k) {
-      farthest = std::max(farthest, way.bodies[k].v.norm());
-      most_turned = std::max(most_turned, way.bodies[k].w.norm());
-    }
-    if (!(farthest <= kFarthestOfGap * off) || !(most_turned <= kMostTurnOfTied)) {
-      return;  // Near a singular position.
+    if (!closes_gaps(way, off)) {
+      if (springs->empty()) {
+        return;
+      }
+      springs->clear();  // Without them gaps may close.
+      continue;
     }
     for (std::size_t k = 0; k < state_.size(); ++k) {
       plan.moves[k].translation += way.bodies[k].v;

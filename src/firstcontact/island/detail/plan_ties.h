@@ -107,6 +107,23 @@ class PlanTies {
   double add_settling(const std::vector<Pose>& at_end, const std::vector<double>& changes,
                       const ProblemBodies& now, ContactProblem& problem) const;
 
+  /// A spring that leads bodies farther than the mean of their velocities, as stiff springs and
+  /// dampers do.
+  struct LedSpring {
+    std::size_t acting = 0;                             ///< Index among the ties of the plan.
+    Eigen::Vector3d between = Eigen::Vector3d::Zero();  ///< [m]  Vector between its points.
+  };
+
+  /// Finds these springs where a plan ends, the stiffest one first.
+  [[nodiscard]] std::vector<LedSpring> led_springs(const std::vector<Pose>& at_end) const;
+
+  /// Adds the rows of displacements that give springs these lengths, as far as the other rows and
+  /// stiffer springs permit. Returns the greatest error that they correct [m].
+  ///
+  /// @param problem  with the rows of add_settling()
+  double hold(const std::vector<LedSpring>& springs, const std::vector<Pose>& at_end,
+              const ProblemBodies& now, ContactProblem& problem) const;
+
  private:
   /// A direction of a spring in the last rows.
   struct SpringInPlan {
@@ -154,6 +171,11 @@ class PlanTies {
   void find_link_forces();
   void find_redundant_rows();
   [[nodiscard]] std::optional<std::size_t> lever_of(const Acting& acting) const;
+  [[nodiscard]] Pose pose_at(std::size_t body, const std::vector<Pose>& at_end) const;
+  [[nodiscard]] TiePlace place_at(const Acting& acting, const std::vector<Pose>& at_end) const;
+  [[nodiscard]] std::array<TiedSide, 2> settled_sides(const Acting& acting, const TiePlace& place,
+                                                      const std::vector<Pose>& at_end,
+                                                      const ProblemBodies& now) const;
   [[nodiscard]] Pose pose_at_end(std::size_t body, const IslandFlight& flight) const;
   void follow(Acting& acting, const IslandFlight& flight) const;
   void turn_with_lever(Acting& acting) const;
