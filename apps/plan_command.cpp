@@ -120,7 +120,7 @@ class Plan {
       question.time = arguments_.time;
     }
     ShapeCache cache;
-    return make_scene_plan(std::move(scene), question, cache);
+    return make_scene_plan(std::move(scene), question, cache, interrupt_.token());
   }
 
   Scene read(const ReadingOptions& reading) const {

@@ -8,6 +8,7 @@ import pathlib
 import re
 import signal
 import sys
+import time
 import unittest
 
 import tool_test
@@ -369,6 +370,25 @@ class Plan(tool_test.ToolTest):
         process = self.start("plan", "scene.json", "-o", "path.json")
         process.send_signal(signal.SIGINT)  # Before the tool is ready for it, the signal ends it at once.
         process.communicate(timeout=60)
+        self.assertIn(process.returncode, (1, -signal.SIGINT))
+        self.assertFalse((self.folder / "path.json").exists())
+
+    def test_ends_when_it_is_interrupted_while_it_looks_for_places_of_a_pose(self):
+        links = [f'<link name="l{k}"/>' for k in range(39)]
+        links.append('<link name="l39"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>')
+        joints = [f"""<joint name="j{k}" type="revolute"><parent link="l{k}"/><child link="l{k + 1}"/>
+            <origin xyz="0.1 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>"""
+                  for k in range(39)]
+        self.file("chain.urdf", "".join(['<robot name="chain">', *links, *joints, "</robot>"]))
+        # Out of reach: all tries, which take half a minute.
+        plan = {"goal": {"link": "l39", "pose": {"position": [3.8, 0.5, 0]}}, "time": 300}
+        self.file("scene.json", scene(plan, [], robots=[{"name": "c", "urdf": "chain.urdf"}]))
+        process = self.start("plan", "scene.json", "-o", "path.json")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begin, 5)
         self.assertIn(process.returncode, (1, -signal.SIGINT))
         self.assertFalse((self.folder / "path.json").exists())
 

@@ -31,13 +31,17 @@ namespace py = pybind11;
 
 namespace {
 
-ScenePlan plan_of(const HeldScene& scene) {
-  const py::gil_scoped_release release;
+PlanQuestion question_of(const HeldScene& scene) {
   if (!scene.scene().plan) {
     throw std::invalid_argument("scene: expected \"plan\": what moves, and its goal; it has none");
   }
+  return *scene.scene().plan;
+}
+
+ScenePlan plan_of(const HeldScene& scene) {
+  const py::gil_scoped_release release;
   ShapeCache cache;
-  return make_scene_plan(scene.scene(), *scene.scene().plan, cache);
+  return make_scene_plan(scene.scene(), question_of(scene), cache);
 }
 
 /// A class of firstcontact/_tuples.py.
@@ -182,32 +186,42 @@ ContactUse contact_use_from(const std::string& word) {
   return static_cast<ContactUse>(found - kContactUseWords.begin());
 }
 
+Planner planner_from(const std::string& word) {
+  const auto found = std::find(kPlannerWords.begin(), kPlannerWords.end(), word);
+  if (found == kPlannerWords.end()) {
+    throw py::value_error("planner: expected \"rrt_connect\" or \"lazy_prm_star\", got \"" + word +
+                          "\"");
+  }
+  return static_cast<Planner>(found - kPlannerWords.begin());
+}
+
 py::object plan(const HeldScene& scene, const std::optional<std::string>& planner,
                 const std::optional<std::string>& contacts,
                 const std::optional<std::uint64_t>& seed, const std::optional<double>& time,
                 std::size_t shortcuts, bool approximate, int threads,
                 OrNone<std::stop_source> stop) {
-  const ScenePlan asked = plan_of(scene);
-  PlanOptions options = asked.options;
+  PlanQuestion question = question_of(scene);
   if (planner) {
-    const auto found = std::find(kPlannerWords.begin(), kPlannerWords.end(), *planner);
-    if (found == kPlannerWords.end()) {
-      throw py::value_error("planner: expected \"rrt_connect\" or \"lazy_prm_star\", got \"" +
-                            *planner + "\"");
-    }
-    options.planner = static_cast<Planner>(found - kPlannerWords.begin());
+    question.planner = planner_from(*planner);
   }
-  options.contacts = contacts ? contact_use_from(*contacts) : options.contacts;
-  options.seed = seed.value_or(options.seed);
-  options.time = time.value_or(options.time);
-  options.shortcuts = shortcuts;
-  options.approximate = approximate;
-  options.threads = threads;
+  if (contacts) {
+    question.contacts = contact_use_from(*contacts);
+  }
+  question.seed = seed ? seed : question.seed;
+  question.time = time ? time : question.time;
+  std::optional<ScenePlan> made;
+  PlanOptions options;
   const PlanResult result = run_query(stop, [&](QueryStop& query) {
-    PlanOptions stoppable = options;
-    stoppable.stop = query.token();
-    return plan_path(asked.plan, asked.start, asked.goals, stoppable);
+    ShapeCache cache;
+    made = make_scene_plan(scene.scene(), question, cache, query.token());
+    options = made->options;
+    options.shortcuts = shortcuts;
+    options.approximate = approximate;
+    options.threads = threads;
+    options.stop = query.token();
+    return plan_path(made->plan, made->start, made->goals, options);
   });
+  const ScenePlan& asked = *made;
   std::vector<double> clearances;
   for (const std::optional<double>& clearance : result.clearances) {
     clearances.push_back(or_nan(clearance));

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <firstcontact/edges/detail/reach_search.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/random_numbers.h>
 
@@ -48,6 +49,11 @@ Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
   return turn.angle() * turn.axis();
 }
 
+}  // namespace
+
+namespace detail {
+
+/// The search from one place to a pose.
 class PoseSearch {
  public:
   PoseSearch(const ConfigurationSpace& space, const LinkPoseGoal& goal)
@@ -214,7 +220,102 @@ class PoseSearch {
   LinkScratch scratch_;
 };
 
-}  // namespace
+struct ReachSearch::Data {
+  const ConfigurationSpace& space;
+  LinkPoseGoal goal;
+  Configuration start;
+  ReachOptions options;
+  PoseSearch search;
+  RandomNumbers random;
+  std::size_t tries = 0;
+  std::vector<ReachedPose> found = {};
+  std::optional<ReachedPose> nearest = {};  // Of those that do not reach the goal.
+  bool is_reached = false;                  // By any place, accepted or not.
+
+  Data(const ConfigurationSpace& in_space, const LinkPoseGoal& to, const Configuration& from,
+       ReachOptions given)
+      : space(in_space),
+        goal(to),
+        start(from),
+        options(std::move(given)),
+        search(space, goal),
+        random(options.seed) {}
+
+  /// Chooses the place from which the next try begins; the other movers stay at the start.
+  Configuration next_begin() {
+    const std::size_t k = tries++;
+    Configuration from = k == 0 ? start : space.sample(random);
+    for (std::size_t c = 0; c < from.size(); ++c) {
+      const SpaceCoordinate& coordinate = space.coordinates()[c];
+      const bool may_turn_on = !coordinate.has_limits && !coordinate.slides &&
+                               !coordinate.turns_short && k % 2 == 0 && k > 0;
+      from[c] =
+          coordinate.mover != goal.mover ? start[c] : (may_turn_on ? kMoreTurns : 1.0) * from[c];
+    }
+    return from;
+  }
+
+  /// Keeps a place that does not reach the goal if it is the nearest one.
+  void keep_nearest(ReachedPose place) {
+    const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
+    if (!nearest || size(place) < size(*nearest)) {
+      nearest = std::move(place);
+    }
+  }
+
+  [[nodiscard]] bool is_known(const ReachedPose& place) const {
+    return std::ranges::any_of(
+        found, [&](const ReachedPose& other) { return space.distance(place.q, other.q) < kSame; });
+  }
+};
+
+ReachSearch::ReachSearch(const ConfigurationSpace& space, const LinkPoseGoal& goal,
+                         const Configuration& start, ReachOptions options) {
+  require_goal(!space.is_body(), "expected a robot with joints: a body is at a pose without them");
+  require_goal(
+      goal.mover < space.mover_count() && goal.link < space.model(goal.mover).links().size(),
+      "expected a link of the robot");
+  require_goal(start.size() == space.size(), "expected a start with a number for each coordinate");
+  require_goal(is_pose(goal.X_WT) && is_pose(goal.X_LT),
+               "expected poses with finite numbers and quaternions that are not zero");
+  require_goal(goal.position_tolerance > 0.0 && goal.rotation_tolerance > 0.0,
+               "expected tolerances > 0");
+  data_ = std::make_unique<Data>(space, goal, start, std::move(options));
+}
+
+ReachSearch::~ReachSearch() = default;
+ReachSearch::ReachSearch(ReachSearch&&) noexcept = default;
+ReachSearch& ReachSearch::operator=(ReachSearch&&) noexcept = default;
+
+bool ReachSearch::try_once() {
+  Data& data = *data_;
+  ReachedPose place = data.search.run(data.next_begin());
+  if (!reaches(place, data.goal)) {
+    data.keep_nearest(std::move(place));
+    return false;
+  }
+  data.is_reached = true;
+  if (data.is_known(place) || (data.options.accepts && !data.options.accepts(place.q))) {
+    return false;
+  }
+  data.found.push_back(std::move(place));
+  return true;
+}
+
+std::size_t ReachSearch::size() const { return data_->found.size(); }
+
+std::vector<ReachedPose> ReachSearch::places() {
+  std::vector<ReachedPose> places = data_->found;
+  std::ranges::stable_sort(places, {}, [&](const ReachedPose& place) {
+    return data_->space.distance(data_->start, place.q);
+  });
+  if (!data_->is_reached && data_->nearest) {
+    places.push_back(data_->search.approach(data_->nearest->q, true));
+  }
+  return places;
+}
+
+}  // namespace detail
 
 bool reaches(const ReachedPose& place, const LinkPoseGoal& goal) {
   return place.position_error <= goal.position_tolerance &&
@@ -225,56 +326,15 @@ bool reaches(const ReachedPose& place, const LinkPoseGoal& goal) {
 std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkPoseGoal& goal,
                                     const Configuration& start, const ReachOptions& options) {
   const FloatEnvironmentGuard guard;
-  require_goal(!space.is_body(), "expected a robot with joints: a body is at a pose without them");
-  require_goal(
-      goal.mover < space.mover_count() && goal.link < space.model(goal.mover).links().size(),
-      "expected a link of the robot");
-  require_goal(start.size() == space.size(), "expected a start with a number for each coordinate");
-  require_goal(is_pose(goal.X_WT) && is_pose(goal.X_LT),
-               "expected poses with finite numbers and quaternions that are not zero");
-  require_goal(goal.position_tolerance > 0.0 && goal.rotation_tolerance > 0.0,
-               "expected tolerances > 0");
-  PoseSearch search(space, goal);
-  RandomNumbers random(options.seed);
-  std::vector<ReachedPose> found;
-  std::optional<ReachedPose> nearest;
-  bool is_reached = false;
-  for (std::size_t k = 0; k < options.tries && found.size() < options.places; ++k) {
+  detail::ReachSearch search(space, goal, start, options);
+  for (std::size_t k = 0; k < options.tries && search.size() < options.places; ++k) {
     if (options.stop.stop_requested() ||
         (options.deadline && std::chrono::steady_clock::now() >= *options.deadline)) {
       break;
     }
-    Configuration from = k == 0 ? start : space.sample(random);
-    for (std::size_t c = 0; c < from.size(); ++c) {
-      const SpaceCoordinate& coordinate = space.coordinates()[c];
-      const bool may_turn_on = !coordinate.has_limits && !coordinate.slides &&
-                               !coordinate.turns_short && k % 2 == 0 && k > 0;
-      from[c] =
-          coordinate.mover != goal.mover ? start[c] : (may_turn_on ? kMoreTurns : 1.0) * from[c];
-    }
-    ReachedPose place = search.run(from);
-    if (!reaches(place, goal)) {
-      const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
-      if (!nearest || size(place) < size(*nearest)) {
-        nearest = std::move(place);
-      }
-      continue;
-    }
-    is_reached = true;
-    const bool is_new = std::none_of(found.begin(), found.end(), [&](const ReachedPose& other) {
-      return space.distance(place.q, other.q) < kSame;
-    });
-    if (is_new && (!options.accepts || options.accepts(place.q))) {
-      found.push_back(std::move(place));
-    }
+    (void)search.try_once();
   }
-  std::stable_sort(found.begin(), found.end(), [&](const ReachedPose& a, const ReachedPose& b) {
-    return space.distance(start, a.q) < space.distance(start, b.q);
-  });
-  if (!is_reached && nearest) {
-    found.push_back(search.approach(nearest->q, true));
-  }
-  return found;
+  return search.places();
 }
 
 }  // namespace firstcontact

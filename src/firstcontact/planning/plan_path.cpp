@@ -47,6 +47,8 @@ void require_plan(bool condition, const std::string& what) {
 void require_plan_options(const PlanOptions& options) {
   require_plan(options.time > 0.0 && std::isfinite(options.time),
                "the time must be finite and > 0 s, got " + detail::shortest(options.time));
+  require_plan(options.spent >= 0.0 && std::isfinite(options.spent),
+               "the time that is spent must be finite and >= 0 s");
   require_plan(options.range >= 0.0 && std::isfinite(options.range),
                "the range must be finite and >= 0");
   require_plan(options.contacts == ContactUse::none || options.planner == Planner::rrt_connect,
@@ -91,9 +93,8 @@ class PlanSearch {
   PlanSearch(const PlanScene& scene, const PlanOptions& options, detail::ContactEnds contacts)
       : scene_(scene),
         options_(options),
-        begin_(PlanWork::Clock::now()),
-        end_(begin_ + std::chrono::duration_cast<PlanWork::Clock::duration>(
-                          std::chrono::duration<double>(std::min(options.time, 1e9)))),
+        begin_(PlanWork::Clock::now() - detail::time_in_clock(options.spent)),
+        end_(begin_ + detail::time_in_clock(options.time)),
         contacts_(std::move(contacts)),
         checker_(scene, options_of_search(EdgePlace::inner, options.effort)),
         hasty_(hasty_effort(options) < options.effort
@@ -397,6 +398,11 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
                      const std::vector<Configuration>& goals, const PlanOptions& options) {
   const FloatEnvironmentGuard guard;
   require_plan_options(options);
+  if (goals.empty() && options.stop.stop_requested()) {  // Before there were any.
+    PlanResult none;
+    none.statistics.seconds = options.spent;
+    return none;
+  }
   PlanScene widened = scene;
   require_places(scene.space, start, goals);
   widened.space.include(start);

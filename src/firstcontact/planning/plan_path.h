@@ -34,6 +34,7 @@ struct PlanOptions {
   ContactUse contacts = ContactUse::none;  ///< For RRT-Connect; other planners take `none` only.
   std::uint64_t seed = 1;
   double time = 10.0;              ///< [s]  Wall clock; > 0.
+  double spent = 0.0;              ///< [s]  Part of `time` that is over before; >= 0.
   double tolerance = 1e-6;         ///< [m]  See EdgeCheckOptions.
   double extra_clearance = 1e-9;   ///< [m]  Extra clearance of the proof at the end; see
                                    ///< EdgeCheckOptions.
@@ -139,6 +140,7 @@ struct PlanResult {
 /// whole motion is proven once more. There is no approximate answer. The planner is ST-RRT's,
 /// whatever the options state, with one round of shortcuts.
 ///
+/// @param goals  empty only where the search was stopped before it had any
 /// @throws std::invalid_argument  names the defect: an option, a limit, a place that is none; the
 ///         start, or all goals, are not free, with the pair, its depth, and the nearest free place
 ///         that was found; a contact pair is not tested, or touches at its end

@@ -19,6 +19,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/planning/detail/body_box.h>
+#include <firstcontact/planning/detail/link_goals.h>
 #include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/robot_name.h>
@@ -275,7 +276,8 @@ ConfigurationSpace space_of_robots(const LoadedScene& loaded, const PlanQuestion
   return space;
 }
 
-ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question) {
+ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question,
+                         const std::stop_token& stop) {
   ConfigurationSpace space = space_of_robots(loaded, question);
   Configuration start;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
@@ -290,8 +292,9 @@ ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question) {
                  .space = std::move(space),
                  .contact_pairs = question.contact_pairs};
   take_times(loaded.scene, question, plan);
-  detail::add_link_goals(plan, question, start, loaded, goals);
-  return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
+  ScenePlan made{std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
+  detail::add_link_goals(made, question, stop);
+  return made;
 }
 
 /// The scene as its check has it, numbered alike, with the mover as a robot of its own.
@@ -358,7 +361,8 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
 
 }  // namespace
 
-ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache& cache) {
+ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache& cache,
+                          const std::stop_token& stop) {
   const FloatEnvironmentGuard guard;
   require_movers(scene, question);
   const std::vector<std::string> frozen = frozen_by_plan(scene, question);
@@ -369,7 +373,7 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
   }
   loaded.warnings.insert(loaded.warnings.end(), frozen.begin(), frozen.end());
   ScenePlan made = question.body ? plan_of_body(std::move(loaded), question)
-                                 : plan_of_robots(std::move(loaded), question);
+                                 : plan_of_robots(std::move(loaded), question, stop);
   made.plan.contact_pairs = question.contact_pairs;
   const PlanOptions defaults;
   made.options.planner = question.planner.value_or(defaults.planner);

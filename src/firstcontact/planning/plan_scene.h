@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
@@ -34,11 +35,17 @@ struct ScenePlan {
 /// A robot begins where its trajectory does. Other robots rest at their trajectories of one point.
 /// A body that a robot holds keeps its place in the link that it has at the start.
 ///
+/// Goals that are poses of links become places of the joints, by inverse kinematics. They share the
+/// time of the question with the search: `options.spent` is what they took.
+///
+/// @param stop  ends inverse kinematics; `goals` may be empty then
 /// @throws std::invalid_argument  names what cannot be planned: a joint or a goal that is none, a
-///         body or robot that moves by itself, a deforming body, a body that is held for a while
+///         body or robot that moves by itself, a deforming body, a body that is held for a while.
+///         With poses of links also a start that is not free, and goals of which none is
 /// @throws as load_scene
 [[nodiscard]] FIRSTCONTACT_API ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question,
-                                                         ShapeCache& cache);
+                                                         ShapeCache& cache,
+                                                         const std::stop_token& stop = {});
 
 /// The question from the first to the last point of the trajectory of a scene's only robot.
 ///

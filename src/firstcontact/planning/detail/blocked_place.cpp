@@ -225,11 +225,18 @@ std::string describe_pair(const PlaceTest& test, const Configuration& q, const B
 std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
                              const std::string& what) {
   const EdgeAnswer answer = checker.check(q, q);
-  const std::string text = what + " is not free";
   if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
-    return text + ": it was not decided with the effort that is allowed";
+    return name_blocked(checker.scene(), std::nullopt, what);
   }
-  return describe_pair(test_of(checker), q, *answer.pair, text);
+  return describe_pair(test_of(checker), q, *answer.pair, what + " is not free");
+}
+
+std::string name_blocked(const PlanScene& scene, const std::optional<BodyPair>& pair,
+                         const std::string& what) {
+  return what + " is not free: " +
+         (pair ? in_quotes(scene.name((*pair)[0])) + " and " + in_quotes(scene.name((*pair)[1])) +
+                     " are in the way"
+               : "it was not decided with the effort that is allowed");
 }
 
 }  // namespace firstcontact::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <firstcontact/edges/edge_checker.h>
@@ -36,5 +37,12 @@ struct PlaceTest {
 /// @param what  "the start"
 [[nodiscard]] std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
                                            const std::string& what);
+
+/// Names the pair that blocks a place, without its depth and without a free place.
+///
+/// @param pair  none where it was not decided
+/// @param what  "goal 3"
+[[nodiscard]] std::string name_blocked(const PlanScene& scene, const std::optional<BodyPair>& pair,
+                                       const std::string& what);
 
 }  // namespace firstcontact::detail

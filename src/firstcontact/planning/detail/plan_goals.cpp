@@ -1,19 +1,14 @@
 #include <firstcontact/planning/detail/plan_goals.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <firstcontact/edges/detail/edge_question.h>
-#include <firstcontact/edges/inverse_kinematics.h>
-#include <firstcontact/planning/detail/blocked_place.h>
-#include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/text/write_json.h>
 
@@ -21,14 +16,6 @@ namespace firstcontact::detail {
 namespace {
 
 [[noreturn]] void refuse_goal(const std::string& what) { throw std::invalid_argument(what); }
-
-std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const std::string& name) {
-  const std::optional<std::size_t> link = model.find_link(name);
-  if (!link) {
-    refuse_goal("expected a goal of a link of the robot, got " + in_quotes(goal.link));
-  }
-  return *link;
-}
 
 /// Adds the coordinates of the joints that move a link; for mimic joints those that they mimic.
 ///
@@ -72,60 +59,15 @@ void require_mimicked(const ConfigurationSpace& space, const Configuration& goal
   }
 }
 
-/// Adds free places of the joints at which a link is at its pose.
-///
-/// @returns a sentence where there is none
-std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& scene,
-                                         const LinkGoal& wanted, const Configuration& start,
-                                         ReachOptions options, std::vector<Configuration>& goals) {
-  const double tolerance = scene.options.tolerance;
-  const RobotName split = split_robot_name(scene, plan.robots, wanted.link);
-  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(split.which), wanted, split.name),
-                          .mover = split.which,
-                          .X_LT = wanted.X_LT,
-                          .X_WT = wanted.X_WT,
-                          .position_tolerance = wanted.position_tolerance,
-                          .rotation_tolerance = wanted.rotation_tolerance};
-  const EdgeCheckOptions defaults;
-  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As in the search.
-  std::optional<EdgeChecker> checker;
-  std::size_t count_blocked = 0;
-  std::optional<Configuration> blocked;  // The first one.
-  if (!plan.times) {                     // With times the search decides which places are free.
-    const ContactEnds contacts(plan, start, {}, kept, tolerance);
-    checker.emplace(plan, EdgeCheckOptions{.tolerance = tolerance,
-                                           .extra_clearance = kept,
-                                           .held = contacts.held_in_search(EdgePlace::inner)});
-    options.accepts = [&](const Configuration& q) {
-      const bool is_free = checker->is_free(q);
-      count_blocked += is_free ? 0 : 1;
-      if (!is_free && !blocked) {
-        blocked = q;
-      }
-      return is_free;
-    };
-  }
-  const std::vector<ReachedPose> places = reach_pose(plan.space, goal, start, options);
-  const std::string name = "the pose of link " + in_quotes(wanted.link);
-  if (places.empty() && blocked) {
-    return describe_blocked(
-        *checker, *blocked,
-        name + " (all " + std::to_string(count_blocked) + " places of the joints that were found)");
-  }
-  if (places.empty()) {
-    return name + ": no time was left to look for places of the joints";
-  }
-  if (!reaches(places.front(), goal)) {
-    const ReachedPose& nearest = places.front();
-    return name + ": no place of the joints was found at which it is there; the nearest is " +
-           write_json(nearest.position_error) + " m and " + write_json(nearest.rotation_error) +
-           " rad off";
-  }
-  std::ranges::transform(places, std::back_inserter(goals), &ReachedPose::q);
-  return std::nullopt;
-}
-
 }  // namespace
+
+std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const std::string& name) {
+  const std::optional<std::size_t> link = model.find_link(name);
+  if (!link) {
+    refuse_goal("expected a goal of a link of the robot, got " + in_quotes(goal.link));
+  }
+  return *link;
+}
 
 std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
                                                      const PlanQuestion& question) {
@@ -195,33 +137,6 @@ Configuration goal_of(const Scene& scene, const PlanQuestion& question,
     require_mimicked(space, goal, one.mover, one.joint, one.position);
   }
   return goal;
-}
-
-void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const Configuration& start,
-                    LoadedScene& loaded, std::vector<Configuration>& goals) {
-  const PlanOptions defaults;
-  const double seconds = std::min(question.time.value_or(defaults.time), 1e9);
-  ReachOptions options{.seed = question.seed.value_or(defaults.seed)};
-  options.deadline = std::chrono::steady_clock::now() +
-                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                         std::chrono::duration<double>(seconds));
-  std::vector<std::string> problems;
-  const bool measures_goal = std::ranges::any_of(
-      plan.contact_pairs, [](const ContactPair& pair) { return pair.at == PathEnd::goal; });
-  if (measures_goal && !question.link_goals.empty()) {
-    refuse_goal(
-        "contact_pairs at the goal are measured where joints have numbers; give the goal as "
-        "positions of joints in place of the pose of a link");
-  }
-  for (const LinkGoal& goal : question.link_goals) {
-    if (auto problem = add_places_of(plan, loaded.scene, goal, start, options, goals)) {
-      problems.push_back(std::move(*problem));
-    }
-  }
-  if (goals.empty() && !problems.empty()) {
-    refuse_goal(problems.front());
-  }
-  loaded.warnings.insert(loaded.warnings.end(), problems.begin(), problems.end());
 }
 
 void ignore_what_rests(const PlanScene& plan, Scene& scene) {

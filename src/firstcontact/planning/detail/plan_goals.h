@@ -3,15 +3,23 @@
 
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
-#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/plan_question.h>
 
 namespace firstcontact::detail {
+
+/// The link that a goal names.
+///
+/// @param name  of the link, without that of its robot
+/// @throws std::invalid_argument if the robot has no such link
+[[nodiscard]] std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal,
+                                       const std::string& name);
 
 /// The joints that the question or a goal names, for each robot of the question.
 ///
@@ -26,14 +34,6 @@ namespace firstcontact::detail {
 [[nodiscard]] Configuration goal_of(const Scene& scene, const PlanQuestion& question,
                                     const ConfigurationSpace& space,
                                     const JointPositions& positions, const Configuration& start);
-
-/// Adds the goals that are poses of links.
-///
-/// A goal that is out of reach is a warning where others are left.
-///
-/// @throws std::invalid_argument if no goal is left
-void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const Configuration& start,
-                    LoadedScene& loaded, std::vector<Configuration>& goals);
 
 /// Ignores the pairs that no edge moves, in the scene that the path file has.
 void ignore_what_rests(const PlanScene& plan, Scene& scene);

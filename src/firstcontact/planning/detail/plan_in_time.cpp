@@ -10,6 +10,7 @@
 #include <firstcontact/edges/detail/edge_question.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/timed_connect.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 #include <firstcontact/robot_check/check_robots.h>
@@ -40,7 +41,7 @@ class PlanInTime {
   PlanInTime(const PlanScene& scene, const PlanOptions& options)
       : scene_(scene),
         options_(options),
-        begin_(Clock::now()),
+        begin_(Clock::now() - time_in_clock(options.spent)),
         asked_of_edges_{.tolerance = options.tolerance,
                         .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
                         .effort = options.effort,
@@ -93,38 +94,28 @@ class PlanInTime {
   }
 
   /// @param what  "the start, at the time 0,"
-  [[noreturn]] void refuse(const TimedPlace& place, const EdgeFound& found,
-                           const std::string& what) {
-    const std::string text = what + " is not free";
-    if (found.verdict == Verdict::undecided || !found.pair) {
-      throw std::invalid_argument(text + ": it was not decided with the effort that is allowed");
-    }
-    const auto is_free = [&](const Configuration& q) {
-      return edges_.at({q, place.t}).verdict == Verdict::free;
-    };
-    const PlaceTest test{scene_, asked_of_edges_, is_free, place.t / edges_.duration()};
-    throw std::invalid_argument(describe_pair(test, place.q, *found.pair, text));
+  [[noreturn]] void refuse(const TimedPlace& place, const std::string& what) {
+    throw std::invalid_argument(describe_blocked(scene_, asked_of_edges_, edges_, place, what));
   }
 
   /// Requires that the start and a goal are free. False where the search was stopped.
   bool require_free(const Configuration& start, const std::vector<Configuration>& goals) {
     const TimedPlace first{start, 0.0};
-    if (const EdgeFound found = edges_.at(first); found.verdict != Verdict::free) {
+    if (edges_.at(first).verdict != Verdict::free) {
       if (options_.stop.stop_requested()) {
         return false;
       }
-      refuse(first, found, "the start, at the time 0,");
+      refuse(first, "the start, at the time 0,");
     }
-    EdgeFound last;
     for (const Configuration& goal : goals) {
-      last = edges_.at({goal, edges_.duration()});
-      if (last.verdict == Verdict::free || options_.stop.stop_requested()) {
+      const bool is_free = edges_.at({goal, edges_.duration()}).verdict == Verdict::free;
+      if (is_free || options_.stop.stop_requested()) {
         return !options_.stop.stop_requested();
       }
     }
-    refuse({goals.back(), edges_.duration()}, last,
-           goals.size() == 1 ? "the goal, at the end of the time,"
-                             : "each goal, at the end of the time,");
+    refuse({goals.back(), edges_.duration()}, goals.size() == 1
+                                                  ? "the goal, at the end of the time,"
+                                                  : "each goal, at the end of the time,");
   }
 
   /// Proves the whole motion anew, in one piece.
@@ -173,6 +164,19 @@ class PlanInTime {
 };
 
 }  // namespace
+
+std::string describe_blocked(const PlanScene& scene, const EdgeCheckOptions& options,
+                             TimedEdges& edges, const TimedPlace& place, const std::string& what) {
+  const EdgeFound found = edges.at(place);
+  if (found.verdict == Verdict::undecided || !found.pair) {
+    return name_blocked(scene, std::nullopt, what);
+  }
+  const auto is_free = [&](const Configuration& q) {
+    return edges.at({q, place.t}).verdict == Verdict::free;
+  };
+  const PlaceTest test{scene, options, is_free, place.t / edges.duration()};
+  return describe_pair(test, place.q, *found.pair, what + " is not free");
+}
 
 PlanResult plan_in_time(const PlanScene& scene, const Configuration& start,
                         const std::vector<Configuration>& goals, double range,

@@ -54,6 +54,11 @@ PlanStatistics PlanWork::statistics() const {
   return statistics;
 }
 
+PlanWork::Clock::duration time_in_clock(double seconds) {
+  return std::chrono::duration_cast<PlanWork::Clock::duration>(
+      std::chrono::duration<double>(std::min(seconds, 1e9)));
+}
+
 double cost_of(const ConfigurationSpace& space, const std::vector<Configuration>& path) {
   double cost = 0.0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {

@@ -81,6 +81,9 @@ class PlanWork {
   std::map<BodyPair, std::size_t> blocked_;
 };
 
+/// A time in the clock of a planner; at most 1e9 s.
+[[nodiscard]] PlanWork::Clock::duration time_in_clock(double seconds);
+
 /// The sum of the lengths of the edges.
 [[nodiscard]] double cost_of(const ConfigurationSpace& space,
                              const std::vector<Configuration>& path);
