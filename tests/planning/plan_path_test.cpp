@@ -190,6 +190,19 @@ TEST(PlanPath, TakesWhicheverGoalItReaches) {
   EXPECT_NE(result.warnings[0].find("\"wall\""), std::string::npos);
 }
 
+// The nearest free place of a goal takes longer than thousands of checks: only a refusal has it.
+TEST(PlanPath, NamesBlockedGoalsBrieflyBesideAFreeOne) {
+  const PlanScene scene = with_gantry(thin_wall(0.0));
+  std::vector<Configuration> goals(20, Configuration{0.0, 0.0, 0.0});
+  EXPECT_NE(message_of(scene, kBefore, goals).find("no goal is free: goal 0 is not free: "),
+            std::string::npos);
+  EXPECT_NE(message_of(scene, kBefore, goals).find("the nearest free place"), std::string::npos);
+  goals.push_back(kBehind);
+  const PlanResult result = plan_path(scene, kBefore, goals);
+  ASSERT_EQ(result.warnings.size(), 20u);
+  EXPECT_EQ(result.warnings[7], "goal 7 is not free: \"wall\" and \"gantry/tool\" are in the way");
+}
+
 TEST(PlanPath, NamesThePairOfAStartThatIsNotFree) {
   const PlanScene scene = with_gantry(thin_wall(0.0));
   const Configuration touching = {-0.07, 0.3, 0.0};

@@ -154,30 +154,31 @@ class PlanSearch {
   }
 
   /// Leaves out goals that are not free, as long as one is free.
+  ///
+  /// Only the place of a refusal is described in full: that takes as long as thousands of checks.
   void require_free(const Configuration& start, const std::vector<Configuration>& goals) {
-    const auto refuse_if_blocked = [&](const Configuration& q, const std::string& what) {
-      const PathEnd at = &q == &start ? PathEnd::start : PathEnd::goal;
-      if (!is_free(q, at)) {
-        require_going_on();
-        throw std::invalid_argument(detail::describe_blocked(checker_at(at), q, what));
-      }
-    };
-    refuse_if_blocked(start, "the start");
+    if (!is_free(start, PathEnd::start)) {
+      refuse_blocked(start, PathEnd::start, "the start");
+    }
     for (std::size_t k = 0; k < goals.size(); ++k) {
-      if (goals.size() == 1) {
-        refuse_if_blocked(goals[k], "the goal");
+      if (is_free(goals[k], PathEnd::goal)) {
         goals_.push_back(goals[k]);
-      } else if (is_free(goals[k], PathEnd::goal)) {
-        goals_.push_back(goals[k]);
-      } else {
-        require_going_on();
-        warnings_.push_back(detail::describe_blocked(checker_at(PathEnd::goal), goals[k],
-                                                     "goal " + std::to_string(k)));
+        continue;
       }
+      require_going_on();
+      warnings_.push_back(detail::name_blocked(
+          scene_, checker_at(PathEnd::goal).check_quickly(goals[k], goals[k]).pair,
+          "goal " + std::to_string(k)));
     }
     if (goals_.empty()) {
-      throw std::invalid_argument("no goal is free: " + warnings_.front());
+      refuse_blocked(goals.front(), PathEnd::goal,
+                     goals.size() == 1 ? "the goal" : "no goal is free: goal 0");
     }
+  }
+
+  [[noreturn]] void refuse_blocked(const Configuration& q, PathEnd at, const std::string& what) {
+    require_going_on();
+    throw std::invalid_argument(detail::describe_blocked(checker_at(at), q, what));
   }
 
   [[nodiscard]] EdgeCheckOptions options_of_search(EdgePlace place, std::uint64_t effort) const {
