@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,6 +81,18 @@ TEST(PlannedPathProof, ProvesARobotThatCarriesABall) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     expect_proven(planned_file(scene, seed, folder.path() / "scene.json"));
   }
+  // A held body moves with its link, whatever its own motion is.
+  const std::string ball = R"("name": "ball", )";
+  std::string moving = scene;
+  moving.insert(moving.find(ball),
+                R"("motion": {"type": "constant_velocity", "translation": [1, 0, 0]}, )");
+  const PlannedPath path = planned_file(moving, 1, folder.path() / "scene.json");
+  EXPECT_FALSE(std::holds_alternative<FixedMotion>(path.scene.bodies[1].motion));
+  expect_proven(path);
+  PlannedPath let_go = path;
+  let_go.scene.robots[0].attached.clear();
+  EXPECT_NE(verify_path(let_go).problem.find("The body \"ball\" moves by itself."),
+            std::string::npos);
 }
 
 }  // namespace

@@ -63,16 +63,26 @@ LoadedScene load(const PlannedPath& path) {
   return load_scene_of(path, cache);
 }
 
-/// Requires that all but the mover rest: the file is about edges of the mover alone.
+/// Whether a robot holds a body at a pose in its link: a motion of the body then has no meaning.
+bool is_held(const Scene& scene, std::size_t body) {
+  return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
+    return std::ranges::any_of(robot.attached, [&](const SceneAttachment& held) {
+      return held.body == body && held.pose;
+    });
+  });
+}
+
+/// Requires that all but the mover and what is held rest: the file is about edges of the mover
+/// alone.
 ///
 /// A state of joints is a trajectory of one point.
 void require_at_rest(const Scene& scene) {
   const auto rests = [](const BodyMotion& motion) {
     return std::holds_alternative<FixedMotion>(motion);
   };
-  for (const Body& body : scene.bodies) {
-    if (!rests(body.motion)) {
-      throw BrokenPath("The body " + in_quotes(body.name) + " moves by itself.");
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    if (!rests(scene.bodies[k].motion) && !is_held(scene, k)) {
+      throw BrokenPath("The body " + in_quotes(scene.bodies[k].name) + " moves by itself.");
     }
   }
   for (const SceneRobot& robot : scene.robots) {
