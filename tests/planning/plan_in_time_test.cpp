@@ -11,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/planning/detail/planned_speeds.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/robot_check/touching_links.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_planned_path.h>
@@ -117,6 +119,39 @@ TEST(PlanInTime, IsTheSameForASeed) {
   };
   EXPECT_EQ(answer(1).path, answer(2).path);
   EXPECT_EQ(answer(1).times, answer(1).times);
+}
+
+/// A finger that closes at up to 1 m/s, one that follows it twice as fast, and one behind that.
+RobotModel geared_gripper() {
+  RobotDescription robot{.name = "gripper", .links = {{"base"}, {"a"}, {"b"}, {"c"}}, .joints = {}};
+  const auto joint = [](const char* name, const char* parent, const char* child, double speed) {
+    Joint made{.name = name, .type = JointType::prismatic, .parent = parent, .child = child};
+    made.limits = {.lower = -1.0, .upper = 1.0, .velocity = speed};
+    return made;
+  };
+  robot.joints = {joint("lead", "base", "a", 1.0), joint("twice", "base", "b", 0.5),
+                  joint("again", "base", "c", 0.9)};
+  robot.joints[1].mimic = {.joint = "lead", .multiplier = -2.0};
+  robot.joints[2].mimic = {.joint = "twice", .multiplier = 3.0};
+  return RobotModel(robot);
+}
+
+// The lead may run at a sixth of 0.9 m/s, and at a half of 0.5 m/s.
+TEST(PlanInTime, KeepsTheSpeedsOfJointsThatMimic) {
+  const RobotMotion rest = at_rest(geared_gripper());
+  const std::vector<std::string> names{"lead"};
+  const ConfigurationSpace space =
+      ConfigurationSpace::of_joints(rest.model(), names, {{"lead", ramp(0.0, 0.0)}});
+  for (const double given : {0.0, 5.0, 0.1}) {
+    PlanQuestion question{.robots = {0}};
+    if (given > 0.0) {
+      question.speeds["lead"] = given;
+    }
+    const std::vector<double> speeds = detail::planned_speeds(question, space, "robot \"r\"");
+    ASSERT_EQ(speeds.size(), 1u);
+    EXPECT_LE(6.0 * speeds[0], 0.9);
+    EXPECT_NEAR(speeds[0], given == 0.1 ? 0.1 : 0.15, 1e-12);
+  }
 }
 
 TEST(PlanInTime, NeedsAGoalThatIsFreeAtTheEnd) {

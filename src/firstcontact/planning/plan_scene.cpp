@@ -21,6 +21,7 @@
 #include <firstcontact/planning/detail/body_box.h>
 #include <firstcontact/planning/detail/link_goals.h>
 #include <firstcontact/planning/detail/plan_goals.h>
+#include <firstcontact/planning/detail/planned_speeds.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/scene.h>
@@ -223,33 +224,9 @@ std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
   return held;
 }
 
-/// [rad/s or m/s]  The speed limit of each coordinate, or of a body.
-///
-/// @param moving  the cause that makes speeds matter, for errors
-std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationSpace& space,
-                              const std::string& moving) {
-  const auto speed = [&](const std::string& name, const std::optional<double>& own) {
-    const auto found = question.speeds.find(name);
-    if (found == question.speeds.end() && !(own.value_or(0.0) > 0.0)) {
-      refuse_plan(moving + " moves: expected \"speeds\" of what is planned with " +
-                  in_quotes(name) + ", got none");
-    }
-    return found == question.speeds.end() ? *own : found->second;
-  };
-  if (space.is_body()) {
-    return {speed("linear", std::nullopt), speed("angular", std::nullopt)};
-  }
-  std::vector<double> speeds;
-  for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    speeds.push_back(speed(
-        coordinate.name, space.model(coordinate.mover).joints()[coordinate.joint].limits.velocity));
-  }
-  return speeds;
-}
-
 void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
   if (const std::optional<std::string> moving = what_moves(scene, question)) {
-    plan.times = PlanTimes{scene.duration, speeds_of(question, plan.space, *moving)};
+    plan.times = PlanTimes{scene.duration, detail::planned_speeds(question, plan.space, *moving)};
   }
 }
 
