@@ -121,6 +121,67 @@ TEST(PlanInTime, IsTheSameForASeed) {
   EXPECT_EQ(answer(1).times, answer(1).times);
 }
 
+/// A cart that has to go around a wall, while something far away moves.
+std::string wall_scene(double duration, int seed) {
+  return R"({"firstcontact": 1,
+    "bodies": [
+      {"name": "cart", "shape": {"box": {"size": [0.3, 0.3, 0.3]}}},
+      {"name": "wall", "shape": {"box": {"size": [0.1, 2, 2]}}, "pose": {"position": [1, 0, 0]}},
+      {"name": "far", "shape": {"box": {"size": [0.1, 0.1, 0.1]}},
+       "motion": {"type": "waypoints", "times": [0, )" +
+         std::to_string(duration) +
+         R"(], "poses": [{"position": [50, 0, 0]}, {"position": [51, 0, 0]}]}}],
+    "plan": {"body": "cart", "goal": {"position": [2, 0, 0]}, "speeds": {"linear": 1, "angular": 1},
+             "box": [[-1, -2.5, -2.5], [3, 2.5, 2.5]], "time": 20, "seed": )" +
+         std::to_string(seed) + "}}";
+}
+
+/// [s]  The time from which a motion rests at its goal.
+double arrival_of(const PlanResult& result) {
+  std::size_t last = result.path.size() - 1;
+  while (last > 0 && result.path[last - 1] == result.path.back()) {
+    --last;
+  }
+  return result.times[last];
+}
+
+// Around the wall it is 3.06 m at 1 m/s; shortcuts at random come near that.
+TEST(PlanInTime, ArrivesAsEarlyInALongSceneAsInAShortOne) {
+  for (const double duration : {20.0, 1000.0}) {
+    for (int seed = 1; seed <= 5; ++seed) {
+      const ScenePlan plan = plan_of(wall_scene(duration, seed));
+      const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+      ASSERT_EQ(result.verdict, PlanVerdict::proven);
+      EXPECT_GT(arrival_of(result), 3.05);
+      EXPECT_LT(arrival_of(result), 5.0) << duration << " s, seed " << seed;
+      EXPECT_EQ(result.times.back(), duration);
+      ASSERT_TRUE(result.statistics.first_cost.has_value());
+      EXPECT_LE(result.cost, *result.statistics.first_cost);
+    }
+  }
+}
+
+TEST(PlanInTime, LeavesTheMotionAsItWasFoundWithoutShortcuts) {
+  ScenePlan plan = plan_of(wall_scene(100.0, 5));
+  const PlanResult shortened = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  plan.options.shortcuts = 0;
+  const PlanResult found = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  ASSERT_EQ(found.verdict, PlanVerdict::proven);
+  EXPECT_EQ(found.cost, found.statistics.first_cost);
+  EXPECT_EQ(shortened.statistics.first_cost, found.statistics.first_cost);
+  EXPECT_LT(shortened.cost, found.cost);
+  EXPECT_LT(arrival_of(shortened), arrival_of(found));
+}
+
+// The ball gets through the door once that is 1.7 m aside, after 1.275 s, and no sooner.
+TEST(PlanInTime, ArrivesAsSoonAsTheDoorLetsItThrough) {
+  const ScenePlan plan = plan_of(door_scene(2.0));
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+  EXPECT_GT(arrival_of(result), 2.0);
+  EXPECT_LT(arrival_of(result), 3.0);
+}
+
 /// A finger that closes at up to 1 m/s, one that follows it twice as fast, and one behind that.
 RobotModel geared_gripper() {
   RobotDescription robot{.name = "gripper", .links = {{"base"}, {"a"}, {"b"}, {"c"}}, .joints = {}};

@@ -11,6 +11,7 @@
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/plan_work.h>
+#include <firstcontact/planning/detail/shorten_timed_path.h>
 #include <firstcontact/planning/detail/timed_connect.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 #include <firstcontact/robot_check/check_robots.h>
@@ -58,7 +59,8 @@ class PlanInTime {
       std::vector<TimedPlace> path = timed_connect(edges_, start, goals, range, random, is_over);
       if (!path.empty()) {
         edges_.counts().first_path_seconds = seconds();
-        shorten_timed_path(edges_, path, is_over);
+        edges_.counts().first_cost = cost_of(path);
+        shorten_timed_path(edges_, path, options_.shortcuts, random, is_over);
         prove(path, goals, result);
       }
     }
@@ -75,9 +77,17 @@ class PlanInTime {
   bool report_and_ask() {
     constexpr std::size_t kReportEvery = 64;
     if (options_.progress && ++asked_ % kReportEvery == 0) {
-      options_.progress({seconds(), edges_.counts().nodes, std::nullopt});
+      options_.progress({seconds(), edges_.counts().nodes, edges_.counts().first_cost});
     }
     return options_.stop.stop_requested() || seconds() > options_.time;
+  }
+
+  [[nodiscard]] double cost_of(const std::vector<TimedPlace>& path) const {
+    double cost = 0.0;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      cost += scene_.space.distance(path[k].q, path[k + 1].q);
+    }
+    return cost;
   }
 
   /// Refuses goals that are all too far for the speeds.
@@ -142,9 +152,7 @@ class PlanInTime {
                                                 ? std::optional(std::max(0.0, found.clearance))
                                                 : std::nullopt;
     result.clearances.assign(path.size() - 1, clearance);
-    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-      result.cost += scene_.space.distance(places[k], places[k + 1]);
-    }
+    result.cost = cost_of(path);
     for (std::size_t k = goals.size(); k-- > 0;) {
       result.goal = goals[k] == places.back() ? std::optional(k) : result.goal;
     }

@@ -218,34 +218,4 @@ std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& st
   return TimedConnect(edges, range).run(start, goals, random, is_over);
 }
 
-void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
-                        const std::function<bool()>& is_over) {
-  const TimedPlace end = path.back();
-  for (std::size_t k = 0; k + 1 < path.size() && !is_over(); ++k) {
-    const TimedPlace arrived{end.q, path[k].t + edges.travel_time(path[k].q, end.q)};
-    const bool is_later = arrived.t > path[k].t;
-    if (arrived.t < end.t && (!is_later || edges.is_free(path[k], arrived)) &&
-        edges.is_free(is_later ? arrived : path[k], end)) {
-      path.resize(k + 1);
-      if (is_later) {
-        path.push_back(arrived);
-      }
-      path.push_back(end);
-      break;
-    }
-  }
-  for (std::size_t from = 0; from + 2 < path.size(); ++from) {
-    for (std::size_t to = path.size() - 1; to > from + 1 && !is_over();
-         to = from + (to - from) / 2) {
-      // The rest at the goal stays, so that an early arrival ends the motion early.
-      const bool keeps_rest = to + 1 < path.size() || path[from].q == end.q;
-      if (keeps_rest && edges.is_free(path[from], path[to])) {
-        path.erase(path.begin() + static_cast<std::ptrdiff_t>(from + 1),
-                   path.begin() + static_cast<std::ptrdiff_t>(to));
-        break;
-      }
-    }
-  }
-}
-
 }  // namespace firstcontact::detail

@@ -29,8 +29,4 @@ class TimedEdges;
                                                     double range, RandomNumbers& random,
                                                     const std::function<bool()>& is_over);
 
-/// Leaves out places that an edge can pass by, and arrives as early as the other places allow.
-void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
-                        const std::function<bool()>& is_over);
-
 }  // namespace firstcontact::detail
