@@ -225,5 +225,14 @@ TEST(ContactPairs, HoldWhereverTheyAreProven) {
   EXPECT_GT(counts[1], 20);
 }
 
+// The place where a pair has opened may be the end of the path.
+TEST(ContactPairs, OpenAtTheEndOfTheOnlyEdge) {
+  for (const RetimingMode mode : kAllModes) {
+    const RetimedMotion retimed = retime(slides_along({{0, 0}, {-0.3, 0}}), kOfSlides,
+                                         held_beside_post({-0.3, 0}), {.mode = mode});
+    EXPECT_TRUE(retimed.proof.is_proven());
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact::test

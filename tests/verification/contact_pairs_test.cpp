@@ -110,6 +110,7 @@ TEST(ContactPairs, OpenOnTheFirstEdge) {
   const PlannedPath path = proven_path(table_scene("0.101", kGoalAbove + pair_with("must_open")));
   EXPECT_GE(path.waypoints.size(), 3u);
   EXPECT_GT(path.waypoints[1][2], 0.11);
+  EXPECT_GE(path.statistics.first_cost.value(), path.cost);  // It has the edge that opens, too.
 }
 
 // The place where the pair has opened may be the goal itself.

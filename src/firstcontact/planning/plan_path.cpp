@@ -128,7 +128,9 @@ class PlanSearch {
     result.warnings.insert(result.warnings.end(), warnings_.begin(), warnings_.end());
     if (found.reaches_goal) {
       work_.counts().first_path_seconds = work_.seconds();
-      work_.counts().first_cost = detail::cost_of(scene_.space, found.places);
+      FoundPath whole = found;
+      add_ends(start, whole);
+      work_.counts().first_cost = detail::cost_of(scene_.space, whole.places);
       work_.report(work_.counts().nodes, work_.counts().first_cost);
       detail::shorten_path(work_, found.places, options_.shortcuts, random);
     }

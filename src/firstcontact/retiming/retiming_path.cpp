@@ -79,6 +79,15 @@ RetimingHold hold_of(const NamedContactPair& pair, const RetimingPath& input,
   return hold;
 }
 
+/// Leaves out waypoints that are where the one before is.
+///
+/// Such an edge has no length: a plan has one where a pair opens on all of its other edges.
+std::vector<std::vector<double>> without_repeats(std::vector<std::vector<double>> waypoints) {
+  const auto repeats = std::ranges::unique(waypoints);
+  waypoints.erase(repeats.begin(), repeats.end());
+  return waypoints;
+}
+
 }  // namespace
 
 RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
@@ -95,7 +104,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
   }
   RetimingPath result;
   result.is_approximate = !path.is_proven;
-  result.path = {std::move(path.joints), std::move(path.waypoints)};
+  result.path = {std::move(path.joints), without_repeats(std::move(path.waypoints))};
   result.scene = std::move(path.scene);
   result.contact_pairs = std::move(path.contact_pairs);
   result.input_digest = std::move(path.input_digest);
