@@ -182,6 +182,7 @@ class Batch {
                                           {"--html", arguments_.page}};
     require_different(outputs);
     require_no_input(outputs, {arguments_.jobs});
+    require_writable(outputs);
     if (!arguments_.page.empty()) {
       (void)viewer_page();  // Without the viewer all jobs would be answered, and no page made.
     }

@@ -113,6 +113,7 @@ class Check {
     const std::vector<std::string> named = files_of(arguments_.robot);
     require_no_input(outputs_, {named.begin(), named.end()});
     require_no_input(outputs_, {arguments_.files.begin(), arguments_.files.end()});
+    require_writable(outputs_);
   }
 
   void check_file(const std::string& file) {

@@ -11,6 +11,8 @@
 #include <firstcontact/robot/link_geometry.h>
 #include <firstcontact/scene/body_shape.h>
 
+#include "atomic_file.h"
+
 namespace firstcontact::app {
 namespace {
 
@@ -60,6 +62,19 @@ void require_different(const std::vector<OutputFile>& outputs) {
                                                 outputs[k].option, outputs[k].path,
                                                 outputs[other].option));
       }
+    }
+  }
+}
+
+void require_writable(const std::vector<OutputFile>& outputs) {
+  for (const OutputFile& output : outputs) {
+    std::error_code error;
+    const auto status = std::filesystem::status(output.path, error);
+    // A pipe may be opened once only.
+    const bool is_file =
+        !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+    if (!output.path.empty() && is_file) {
+      const AtomicFile begun(output.path);  // Leaves nothing behind.
     }
   }
 }

@@ -22,6 +22,12 @@ struct OutputFile {
 /// @throws std::invalid_argument where two outputs are one file
 void require_different(const std::vector<OutputFile>& outputs);
 
+/// Requires that the outputs can be written, before the work whose answer they are for.
+///
+/// @throws std::runtime_error, one line that names the file, where its folder is missing, or the
+///         file cannot be written
+void require_writable(const std::vector<OutputFile>& outputs);
+
 /// Refuses an output in the file of an input, as the answer would replace the question.
 ///
 /// @throws std::runtime_error where an output is one of the inputs: unlike a bad scene of many,

@@ -78,6 +78,7 @@ class Plan {
     const std::vector<std::string> inputs = files_of(arguments.robot);
     require_no_input(outputs_, {inputs.begin(), inputs.end()});
     require_no_input(outputs_, {arguments.scene});
+    require_writable(outputs_);
     if (!arguments.page.empty()) {
       viewer_ = viewer_page();  // A missing viewer is reported before the work.
     }

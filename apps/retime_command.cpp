@@ -250,6 +250,7 @@ ExitStatus retime_path(const Arguments& arguments) {
   }
   std::erase_if(named, [](const std::filesystem::path& file) { return file.empty(); });
   require_no_input(outputs, named);
+  require_writable(outputs);
   try {
     progress.doing("reading");
     const RetimingPath input = read_input(arguments);

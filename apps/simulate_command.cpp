@@ -63,6 +63,7 @@ Simulator load(const Arguments& arguments) {
       {"-o", arguments.output}, {"--html", arguments.page}, {"--glb", arguments.animation}};
   require_different(outputs);
   require_no_input(outputs, {arguments.scene});
+  require_writable(outputs);
   const ReadingOptions reading{.lenient = arguments.lenient};
   Scene scene =
       arguments.scene == kStdin

@@ -359,6 +359,14 @@ class Plan(tool_test.ToolTest):
         self.file("scene.json", scene({"robots": ["g", "p"], "body": "peg", "goal": GOAL}, [PEG], robots=robots))
         self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), '"robots" and "body"', "got several")
 
+    def test_knows_before_it_plans_that_a_file_cannot_be_written(self):
+        # No path would be found: then there would be nothing to write either.
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "time": 100}, [CLOSED, PEG]))
+        self.assert_refused_with(self.plan("scene.json", "-o", "nowhere/path.json"), "nowhere/path.json")
+        if self.has_viewer():
+            self.assert_refused_with(self.plan("scene.json", "--html", "nowhere/path.html"), "nowhere/path.html")
+        self.assert_refused_with(self.plan("scene.json", "-o", "."), ".")
+
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()

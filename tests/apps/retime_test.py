@@ -144,6 +144,9 @@ class Retime(tool_test.ToolTest):
         self.assertFalse((self.folder / "out.yaml").exists())
 
 
+    def test_knows_before_its_work_that_a_file_cannot_be_written(self):
+        self.assert_refused_with(self.retime("--trajectory", self.way, out="nowhere/out.yaml"), "nowhere/out.yaml")
+
 class RetimeSeveralRobots(tool_test.ToolTest):
     """Two Pandas that change sides around a post: one motion of 14 coordinates."""
 
