@@ -307,7 +307,7 @@ class Plan {
 
 void require_one_plan(const Arguments& arguments) {
   if (!arguments.scene.empty() && arguments.robot.robot.empty()) {
-    require_no_option_of_a_robot(arguments.robot);
+    require_no_option_of_a_robot(arguments.robot, RobotUse::plan);
   }
   if (arguments.scene.empty() == arguments.robot.robot.empty()) {
     throw std::invalid_argument(arguments.scene.empty()

@@ -259,6 +259,7 @@ ExitStatus retime_path(const Arguments& arguments) {
     const LoadedRetimingScene scene = load_retiming_scene(input, cache);
     const RobotModel model = joined_model(scene.where);
     const std::vector<RateLimits> limits = read_limits(arguments, input, model);
+    require_names(input.path.joint_names, format, model);
     progress.doing("retiming");
     RetimingOptions options{.mode = mode_of(arguments.mode)};
     options.proof.tolerance = arguments.tolerance.value_or(input.scene.options.tolerance);

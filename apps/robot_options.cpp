@@ -125,7 +125,8 @@ std::vector<std::string> files_of(const RobotArguments& arguments) {
   return files;
 }
 
-void require_no_option_of_a_robot(const RobotArguments& arguments) {
+void require_no_option_of_a_robot(const RobotArguments& arguments, RobotUse use) {
+  const bool plans = use == RobotUse::plan;
   struct Option {
     bool is_given;
     const char* name;
@@ -134,9 +135,9 @@ void require_no_option_of_a_robot(const RobotArguments& arguments) {
   const std::array options{
       Option{!arguments.srdf.empty(), "--srdf", "robots[].srdf"},
       Option{!arguments.trajectory.empty(), "--trajectory", "robots[].trajectory"},
-      Option{!arguments.request.empty(), "--request", "robots[].trajectory"},
-      Option{!arguments.start.empty(), "--start", "robots[].trajectory"},
-      Option{!arguments.goal.empty(), "--goal", "robots[].trajectory"},
+      Option{!arguments.request.empty(), "--request", plans ? "plan" : "robots[].trajectory"},
+      Option{!arguments.start.empty(), "--start", plans ? "plan.start" : "robots[].trajectory"},
+      Option{!arguments.goal.empty(), "--goal", plans ? "plan.goal" : "robots[].trajectory"},
       Option{!arguments.state.empty(), "--state", "robots[].state"},
       Option{!arguments.environment.empty(), "--environment", "bodies"},
       Option{arguments.environment_scale.has_value(), "--environment-scale",

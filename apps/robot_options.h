@@ -47,7 +47,7 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments,
 /// silence.
 ///
 /// @throws std::invalid_argument  names the first option that is given beside a scene
-void require_no_option_of_a_robot(const RobotArguments& arguments);
+void require_no_option_of_a_robot(const RobotArguments& arguments, RobotUse use = RobotUse::check);
 
 /// The file that errors name which have no file of their own: the motion's, or the robot's.
 [[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);

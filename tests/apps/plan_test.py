@@ -367,6 +367,11 @@ class Plan(tool_test.ToolTest):
             self.assert_refused_with(self.plan("scene.json", "--html", "nowhere/path.html"), "nowhere/path.html")
         self.assert_refused_with(self.plan("scene.json", "-o", "."), ".")
 
+    def test_says_where_a_scene_has_its_start_and_goal(self):
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
+        for option, key in (("--start", "plan.start"), ("--goal", "plan.goal")):
+            self.assert_refused_with(self.plan("scene.json", option, "x=1"), f"in a scene, say it in {key}")
+
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()

@@ -147,6 +147,17 @@ class Retime(tool_test.ToolTest):
     def test_knows_before_its_work_that_a_file_cannot_be_written(self):
         self.assert_refused_with(self.retime("--trajectory", self.way, out="nowhere/out.yaml"), "nowhere/out.yaml")
 
+    def test_names_a_joint_that_a_table_cannot_have(self):
+        self.robot = self.file("arm.urdf", URDF.replace('"elbow"', '"time"'))
+        limits = self.file("limits.yaml", LIMITS.replace("elbow:", "time:"))
+        way = self.file("way.json", {"joint_names": ["shoulder", "time"], "points": [
+            {"positions": [0, 0], "time_from_start": {"sec": 0, "nanosec": 0}},
+            {"positions": [1, 1], "time_from_start": {"sec": 1, "nanosec": 0}}]})
+        retime = ["retime", "--robot", self.robot, "--limits", limits, "--trajectory", way, "-o"]
+        self.assert_refused_with(self.run_tool(*retime, "out.csv"), 'joint "time"', ".csv", "another format")
+        self.assertEqual(self.run_tool(*retime, "out.yaml").returncode, 0)
+
+
 class RetimeSeveralRobots(tool_test.ToolTest):
     """Two Pandas that change sides around a post: one motion of 14 coordinates."""
 

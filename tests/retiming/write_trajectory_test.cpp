@@ -55,6 +55,49 @@ TEST(WriteTrajectory, WritesNumbersThatOldReadersOfYamlKnow) {
             "  time_from_start: {sec: 1, nanosec: 1}\n");
 }
 
+/// A robot with hinges of these names, one after the other.
+RobotModel chain_of(const std::vector<std::string>& names) {
+  RobotDescription robot{.name = "chain", .links = {{"l0"}}, .joints = {}};
+  for (const std::string& name : names) {
+    const std::string parent = robot.links.back().name;
+    robot.links.push_back({.name = "l" + std::to_string(robot.links.size())});
+    robot.joints.push_back({.name = name,
+                            .type = JointType::continuous,
+                            .parent = parent,
+                            .child = robot.links.back().name});
+  }
+  return RobotModel(robot);
+}
+
+TEST(WriteTrajectory, ReadsOddNamesBack) {
+  const std::vector<std::string> names{"a\"b", "\"", "\"\"", "c,d", "e;f \"g\", h", "#i"};
+  const TimedMotion motion{names,
+                           {{0, {1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}},
+                            {1'000'000'000, {2, 3, 4, 5, 6, 7}, {0, 0, 0, 0, 0, 0}}}};
+  for (const auto format :
+       {TrajectoryFormat::yaml, TrajectoryFormat::json, TrajectoryFormat::csv}) {
+    const std::string ending = kTrajectoryEndings[static_cast<std::size_t>(format)];
+    EXPECT_EQ(parse_timed_motion(write_trajectory(motion, format), "t" + ending, chain_of(names)),
+              motion);
+    require_names(names, format, chain_of(names));
+  }
+}
+
+TEST(WriteTrajectory, RefusesNamesThatATableTakesForColumnsOfItsOwn) {
+  for (const std::string name : {"time", " b"}) {
+    const std::vector<std::string> names{"a", name};
+    require_names(names, TrajectoryFormat::yaml, chain_of(names));
+    require_names(names, TrajectoryFormat::json, chain_of(names));
+    try {
+      require_names(names, TrajectoryFormat::csv, chain_of(names));
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("joint \"" + name + "\""), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 std::string error_of_text(const std::string& text, const std::string& name) {
   try {
     (void)parse_timed_motion(text, name, planar_arm(1));

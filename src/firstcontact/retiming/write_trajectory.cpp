@@ -1,9 +1,12 @@
 #include <firstcontact/retiming/write_trajectory.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <vector>
 
+#include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -160,6 +163,33 @@ std::string write_trajectory(const TimedMotion& motion, TrajectoryFormat format)
       break;
   }
   return write_yaml(motion);
+}
+
+void require_names(const std::vector<std::string>& joint_names, TrajectoryFormat format,
+                   const RobotModel& robot) {
+  const auto are_kept = [&](const std::vector<std::string>& names) {
+    const std::vector<double> zeros(names.size(), 0.0);
+    const TimedMotion motion{
+        .joint_names = names,
+        .points = {{0, zeros, zeros, zeros}, {kNanosecondsInSecond, zeros, zeros, zeros}}};
+    const std::string file =
+        std::string("names") + kTrajectoryEndings.at(static_cast<std::size_t>(format));
+    try {
+      return parse_timed_motion(write_trajectory(motion, format), file, robot) == motion;
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  if (are_kept(joint_names)) {
+    return;
+  }
+  const auto lost =
+      std::ranges::find_if(joint_names, [&](const std::string& name) { return !are_kept({name}); });
+  throw std::invalid_argument(
+      "joint " + detail::in_quotes(lost != joint_names.end() ? *lost : joint_names.back()) +
+      ": this name cannot be written as " +
+      kTrajectoryEndings.at(static_cast<std::size_t>(format)) +
+      ", as it would be read as something else; write another format");
 }
 
 }  // namespace firstcontact

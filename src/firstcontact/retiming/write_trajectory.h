@@ -6,9 +6,11 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact {
 
@@ -33,5 +35,13 @@ inline constexpr std::array<const char*, 3> kTrajectoryEndings{".yaml", ".json",
 /// of ROS, take other numbers for words.
 [[nodiscard]] FIRSTCONTACT_API std::string write_trajectory(const TimedMotion& motion,
                                                             TrajectoryFormat format);
+
+/// Requires that a file holds the names of joints, so that they are read back as they are.
+///
+/// A table has columns of its own beside those of joints, such as `time`.
+///
+/// @throws std::invalid_argument  names the first joint that a file of this format cannot hold
+FIRSTCONTACT_API void require_names(const std::vector<std::string>& joint_names,
+                                    TrajectoryFormat format, const RobotModel& robot);
 
 }  // namespace firstcontact

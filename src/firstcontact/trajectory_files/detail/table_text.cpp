@@ -17,7 +17,10 @@ std::size_t end_of_field(std::string_view text, char separator) {
   const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
   std::size_t from = 0;
   if (begin < text.size() && text[begin] == '"' && text[begin] != separator) {
-    const std::size_t closed = text.find('"', begin + 1);
+    std::size_t closed = text.find('"', begin + 1);
+    while (closed != std::string_view::npos && text.substr(closed + 1).starts_with('"')) {
+      closed = text.find('"', closed + 2);  // Two of them are one in the field.
+    }
     from = closed == std::string_view::npos ? 0 : closed + 1;
   }
   const std::size_t end =
@@ -25,9 +28,18 @@ std::size_t end_of_field(std::string_view text, char separator) {
   return std::min(end, text.size());
 }
 
+/// The text of a field: without quotes around it, and with one for each two in it.
 std::string without_quotes(std::string_view field) {
   const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
-  return std::string(quoted ? trimmed(field.substr(1, field.size() - 2)) : field);
+  if (!quoted) {
+    return std::string(field);
+  }
+  std::string text(trimmed(field.substr(1, field.size() - 2)));
+  for (std::size_t at = text.find("\"\""); at != std::string::npos;
+       at = text.find("\"\"", at + 1)) {
+    text.erase(at, 1);
+  }
+  return text;
 }
 
 /// The header of a line, if one of its fields is the time.

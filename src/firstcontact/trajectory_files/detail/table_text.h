@@ -23,6 +23,8 @@ struct TableLine {
 
 /// The fields of a line, without blanks around them; quotes around a whole field hide separators.
 ///
+/// Two quotes within such a field are one.
+///
 /// @param separator  ',', ';' or a tab; a blank stands for any number of blanks and tabs
 [[nodiscard]] std::vector<std::string> table_fields(std::string_view line, char separator);
 
