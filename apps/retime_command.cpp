@@ -81,10 +81,9 @@ RetimingPath read_input(const Arguments& arguments) {
 }
 
 /// @param model  the model of all robots that move
-std::vector<RateLimits> read_limits(const Arguments& arguments, const RetimingPath& input,
-                                    const RobotModel& model) {
-  const auto given = arguments.limits.empty() ? std::map<std::string, GivenLimits>{}
-                                              : read_joint_limits(arguments.limits, model);
+std::vector<RateLimits> rate_limits(const Arguments& arguments, const RetimingPath& input,
+                                    const RobotModel& model,
+                                    const std::map<std::string, GivenLimits>& given) {
   return limits_of(model, input.path.joint_names, given, arguments.others);
 }
 
@@ -256,9 +255,12 @@ ExitStatus retime_path(const Arguments& arguments) {
     const RetimingPath input = read_input(arguments);
     require_no_input(outputs, files_of(input.scene));
     ShapeCache cache;
-    const LoadedRetimingScene scene = load_retiming_scene(input, cache);
+    LoadedRetimingScene scene = load_retiming_scene(input, cache);
     const RobotModel model = joined_model(scene.where);
-    const std::vector<RateLimits> limits = read_limits(arguments, input, model);
+    const auto given = arguments.limits.empty() ? std::map<std::string, GivenLimits>{}
+                                                : read_joint_limits(arguments.limits, model);
+    scene.where.positions = position_limits_of(given);
+    const std::vector<RateLimits> limits = rate_limits(arguments, input, model, given);
     require_names(input.path.joint_names, format, model);
     progress.doing("retiming");
     RetimingOptions options{.mode = mode_of(arguments.mode)};

@@ -144,6 +144,20 @@ class Retime(tool_test.ToolTest):
         self.assertFalse((self.folder / "out.yaml").exists())
 
 
+    def test_keeps_the_positions_of_the_limits(self):
+        def retime(elbow: str) -> object:
+            limits = self.file("l.yaml", LIMITS.replace("  elbow: {", "  elbow: {" + elbow))
+            return self.run_tool("retime", "--robot", self.robot, "--trajectory", self.way, "--limits", limits,
+                                 "-o", "out.yaml")
+
+        self.assertEqual(retime("has_position_limits: true, min_position: 0, max_position: 1, ").returncode, 0)
+        (self.folder / "out.yaml").unlink()
+        result = retime("has_position_limits: true, min_position: 0, max_position: 0.5, ")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertRegex(result.stdout, "limit +.*elbow.*0.5")
+        self.assertFalse((self.folder / "out.yaml").exists())
+        self.assertEqual(retime("has_position_limits: false, max_position: 0.5, ").returncode, 0)
+
     def test_knows_before_its_work_that_a_file_cannot_be_written(self):
         self.assert_refused_with(self.retime("--trajectory", self.way, out="nowhere/out.yaml"), "nowhere/out.yaml")
 

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <firstcontact/retiming/joint_limits.h>
 #include <firstcontact/retiming/retime.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "retiming_cases.h"
@@ -137,6 +141,71 @@ TEST(JointLimits, RefusesAFileThatIsWrong) {
     EXPECT_THROW((void)parse_joint_limits(text, "l.yaml", robot), ParseError) << text;
   }
   EXPECT_THROW((void)parse_joint_limits("", "l.txt", robot), ParseError);
+}
+
+/// A slide that the robot lets go from -1 m to 1 m.
+RobotModel slide() {
+  RobotDescription description{.name = "slide", .links = {{"base"}, {"a"}, {"b"}}, .joints = {}};
+  Joint first{.name = "x", .type = JointType::prismatic, .parent = "base", .child = "a"};
+  first.limits = {.lower = -1.0, .upper = 1.0, .velocity = 1.0};
+  Joint second{.name = "turn", .type = JointType::continuous, .parent = "a", .child = "b"};
+  second.limits.velocity = 1.0;
+  description.joints = {first, second};
+  return RobotModel(description);
+}
+
+/// The joint and the limit that a motion of slides from 0 to 0.8 m leaves; of robots that are
+/// alike.
+std::vector<std::pair<std::size_t, double>> left_limits(
+    const std::map<std::string, PositionLimits>& positions, std::size_t robots = 1) {
+  RetimingScene where;
+  where.robots.clear();
+  where.positions = positions;
+  WaypointPath path{{}, {{}, {}}};
+  for (std::size_t k = 0; k < robots; ++k) {
+    const std::string name = "r" + std::to_string(k);
+    where.robots.push_back(where.scene.add_robot(
+        name, RobotMotion(slide(), {{"x", ramp(0, 0)}, {"turn", ramp(0, 0)}})));
+    path.joint_names.push_back(robots == 1 ? "x" : name + "/x");
+    path.waypoints[0].push_back(0.0);
+    path.waypoints[1].push_back(0.8);
+  }
+  const std::vector<RateLimits> rates(robots, {1.0, 1.0, {}});
+  std::vector<std::pair<std::size_t, double>> left;
+  for (const SceneLimits& of_robot : retime(path, rates, where).proof.positions) {
+    for (const LimitViolation& violation : of_robot.violations) {
+      left.emplace_back(of_robot.robot, violation.limit);
+    }
+  }
+  return left;
+}
+
+using Left = std::vector<std::pair<std::size_t, double>>;
+
+TEST(JointLimits, NarrowThePositionsOfTheRobot) {
+  const auto left_with = [](const std::string& of_x) {
+    return left_limits(position_limits_of(
+        parse_joint_limits("joint_limits: {x: {" + of_x + "}}", "l.yaml", slide())));
+  };
+  EXPECT_EQ(left_with("min_position: 0, max_position: 0.9"), Left{});
+  EXPECT_EQ(left_with("has_position_limits: true, max_position: 0.5"), (Left{{0, 0.5}}));
+  EXPECT_EQ(left_with("min_position: 0.1"), (Left{{0, 0.1}}));
+  EXPECT_EQ(left_with("has_position_limits: false, max_position: 0.5"), Left{});
+  EXPECT_EQ(left_with("max_velocity: 1"), Left{});
+}
+
+TEST(JointLimits, NarrowThePositionsOfOneOfSeveralRobots) {
+  EXPECT_EQ(left_limits({{"r1/x", {.lower = {}, .upper = 0.5}}}, 2), (Left{{1, 0.5}}));
+}
+
+TEST(JointLimits, RefusesPositionsThatAreWrong) {
+  for (const char* text : {"x: {has_position_limits: true}", "x: {min_position: .nan}",
+                           "x: {min_position: 1, max_position: 0}", "turn: {max_position: 1}"}) {
+    EXPECT_THROW(
+        (void)parse_joint_limits("joint_limits: {" + std::string(text) + "}", "l.yaml", slide()),
+        ParseError)
+        << text;
+  }
 }
 
 }  // namespace

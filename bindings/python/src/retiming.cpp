@@ -89,15 +89,12 @@ RetimingPath retiming_input(const RetimingSource& source) {
                      : read_retiming_path(source.file, source.which, reading);
 }
 
-std::vector<RateLimits> rate_limits(const RetimingWish& wish, const RobotModel& model,
-                                    const std::vector<std::string>& joint_names) {
-  std::map<std::string, GivenLimits> given;
+std::map<std::string, GivenLimits> given_limits(const RetimingWish& wish, const RobotModel& model) {
   if (wish.limits_text) {
-    given = parse_joint_limits(*wish.limits_text, "limits.json", model);
-  } else if (wish.limits_file) {
-    given = read_joint_limits(*wish.limits_file, model);
+    return parse_joint_limits(*wish.limits_text, "limits.json", model);
   }
-  return limits_of(model, joint_names, given, wish.others);
+  return wish.limits_file ? read_joint_limits(*wish.limits_file, model)
+                          : std::map<std::string, GivenLimits>{};
 }
 
 /// Writes a proven motion in all formats. Each text is read as a controller reads it, and what is
@@ -133,9 +130,12 @@ Retiming retimed(const RetimingSource& source, const RetimingWish& wish, std::st
   }
   ShapeCache cache;
   retiming.scene = load_retiming_scene(input, cache);
+  const RobotModel model = joined_model(retiming.scene->where);
+  const std::map<std::string, GivenLimits> given = given_limits(wish, model);
+  retiming.scene->where.positions = position_limits_of(given);
   const RetimingScene& where = retiming.scene->where;
-  const RobotModel model = joined_model(where);
-  const std::vector<RateLimits> limits = rate_limits(wish, model, input.path.joint_names);
+  const std::vector<RateLimits> limits =
+      limits_of(model, input.path.joint_names, given, wish.others);
   RetimingOptions options = wish.options;
   options.proof.tolerance = wish.tolerance.value_or(input.scene.options.tolerance);
   options.proof.budget.stop = std::move(stop);

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -102,6 +103,40 @@ bool rests_nearly(std::span<const CoordinateSegment> segments) {
   return high - low <= kRoundingAllowance;
 }
 
+/// Narrows the positions of a joint.
+void narrow(const PositionLimits& given, JointLimits& limits) {
+  if (given.lower) {
+    limits.lower = std::max(*given.lower, limits.lower.value_or(*given.lower));
+  }
+  if (given.upper) {
+    limits.upper = std::min(*given.upper, limits.upper.value_or(*given.upper));
+  }
+}
+
+/// The motion of a robot without geometry, whose joints have the narrower positions.
+///
+/// @param begin  before its joints in `positions`: "ROBOT/" where several robots move
+RobotMotion within_positions(const RobotMotion& motion, const std::string& begin,
+                             const std::map<std::string, PositionLimits>& positions) {
+  const RobotModel& model = motion.model();
+  RobotDescription robot{
+      .name = model.name(), .links = {}, .joints = {model.joints().begin(), model.joints().end()}};
+  for (const Link& link : model.links()) {
+    robot.links.push_back({.name = link.name});
+  }
+  std::map<std::string, JointMotion> motions;
+  for (std::size_t joint = 0; joint < robot.joints.size(); ++joint) {
+    Joint& narrowed = robot.joints[joint];
+    if (const auto found = positions.find(begin + narrowed.name); found != positions.end()) {
+      narrow(found->second, narrowed.limits);
+    }
+    if (const std::optional<JointMotion> given = motion.given(joint)) {
+      motions.emplace(narrowed.name, *given);
+    }
+  }
+  return {RobotModel(std::move(robot)), std::move(motions), motion.base()};
+}
+
 /// The limits that a robot leaves and that retiming can change.
 ///
 /// Left out are those that rate_report() reports, and those of joints that rest, also where the
@@ -172,8 +207,12 @@ std::vector<SceneLimits> positions_beyond_limits(const TimedMotion& motion,
   const std::vector<TimedMotion> parts = split_motion(motion, where);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const std::size_t robot = where.robots[k];
-    std::vector<LimitViolation> violations =
-        violations_of(parts[k], robot_motion_of(parts[k], where.scene.robot_motion(robot)));
+    RobotMotion moved = robot_motion_of(parts[k], where.scene.robot_motion(robot));
+    if (!where.positions.empty()) {
+      const std::string begin = where.robots.size() == 1 ? "" : where.scene.robot_name(robot) + "/";
+      moved = within_positions(moved, begin, where.positions);
+    }
+    std::vector<LimitViolation> violations = violations_of(parts[k], moved);
     if (!violations.empty()) {
       all.push_back({robot, std::move(violations)});
     }

@@ -60,6 +60,35 @@ GivenLimits limits_in(const JsonValue& value, const JsonReader& read) {
   return limits;
 }
 
+/// The limits of positions of a joint in the file.
+void take_positions(const JsonValue& value, const Joint& moved, const JsonReader& read,
+                    GivenLimits& limits) {
+  const auto& joint = std::get<JsonObject>(value.value);
+  const JsonValue* has = find(joint, "has_position_limits");
+  const JsonValue* lower = find(joint, "min_position");
+  const JsonValue* upper = find(joint, "max_position");
+  if (has != nullptr && !read.boolean(*has)) {
+    return;
+  }
+  if (lower == nullptr && upper == nullptr) {
+    if (has != nullptr) {
+      read.fail(*has, "expected \"min_position\" or \"max_position\" beside it, got none");
+    }
+    return;
+  }
+  if (moved.type != JointType::revolute && moved.type != JointType::prismatic) {
+    read.fail(lower != nullptr ? *lower : *upper,
+              "expected limits of positions of a revolute or prismatic joint alone, " +
+                  detail::in_quotes(moved.name) + " is another one");
+  }
+  PositionLimits& positions = limits.positions;
+  positions.lower = lower != nullptr ? std::optional(read.number(*lower)) : std::nullopt;
+  positions.upper = upper != nullptr ? std::optional(read.number(*upper)) : std::nullopt;
+  if (positions.lower && positions.upper && !(*positions.lower <= *positions.upper)) {
+    read.fail(*upper, "expected no less than \"min_position\"");
+  }
+}
+
 [[noreturn]] void refuse_missing(const std::string& joint, const char* rate) {
   throw std::invalid_argument("joint " + detail::in_quotes(joint) + ": expected a limit of the " +
                               rate + ", got none");
@@ -182,12 +211,15 @@ std::map<std::string, GivenLimits> parse_joint_limits(std::string_view text,
     if (names_fixed_joint(robot, member.key)) {
       continue;
     }
+    std::size_t joint = 0;
     try {
-      (void)find_coordinate(robot, member.key);
+      joint = find_coordinate(robot, member.key).joint;
     } catch (const std::invalid_argument& error) {
       read.fail(member.value, error.what());
     }
-    result[member.key] = limits_in(member.value, read);
+    GivenLimits& limits = result[member.key];
+    limits = limits_in(member.value, read);
+    take_positions(member.value, robot.joints()[joint], read, limits);
   }
   return result;
 }
@@ -208,6 +240,17 @@ std::vector<RateLimits> limits_of(const RobotModel& robot,
   }
   require_limits(joint_names, limits);
   return limits;
+}
+
+std::map<std::string, PositionLimits> position_limits_of(
+    const std::map<std::string, GivenLimits>& given) {
+  std::map<std::string, PositionLimits> positions;
+  for (const auto& [joint, limits] : given) {
+    if (limits.positions.lower || limits.positions.upper) {
+      positions[joint] = limits.positions;
+    }
+  }
+  return positions;
 }
 
 }  // namespace firstcontact

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/timed_motion.h>
 #include <firstcontact/robot/robot_model.h>
 
@@ -21,18 +22,20 @@ struct GivenLimits {
   std::optional<double> velocity = {};      ///< [rad/s or m/s]
   std::optional<double> acceleration = {};  ///< [rad/s^2 or m/s^2]
   std::optional<double> jerk = {};          ///< [rad/s^3 or m/s^3]
+  PositionLimits positions = {};
 };
 
 /// Reads MoveIt's joint_limits.yaml, or the same as JSON.
 ///
 /// Under `joint_limits` each joint has `has_velocity_limits` and `max_velocity`, and likewise for
-/// `acceleration`, `deceleration` and `jerk`. A limit whose `has_...` is false is none. The smaller
-/// one of an acceleration and a deceleration limits both. Positions are the URDF's. Scaling factors
-/// are for requests, and are left out.
+/// `acceleration`, `deceleration` and `jerk`; of positions `min_position` and `max_position`. A
+/// limit whose `has_...` is false is none. The smaller one of an acceleration and a deceleration
+/// limits both. Default scaling factors are for requests, and are left out.
 ///
 /// @param source  names the text in errors; its extension gives the format
 /// @param robot   as joined_model() where several robots move: joints are then ROBOT/NAME
-/// @throws ParseError  names the joint: it is not of the robot, or a limit is not > 0
+/// @throws ParseError  names the joint: it is not of the robot, a limit is not > 0, or positions
+///         have limits but do not slide or turn between two ends
 [[nodiscard]] FIRSTCONTACT_API std::map<std::string, GivenLimits> parse_joint_limits(
     std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
 
@@ -54,5 +57,9 @@ struct GivenLimits {
 [[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);
+
+/// The limits of positions among given limits, for RetimingScene::positions.
+[[nodiscard]] FIRSTCONTACT_API std::map<std::string, PositionLimits> position_limits_of(
+    const std::map<std::string, GivenLimits>& given);
 
 }  // namespace firstcontact

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <firstcontact/many_bodies/pair_rules.h>
@@ -31,6 +34,12 @@ struct RetimingHold {
   PathEnd at = PathEnd::start;
 };
 
+/// The limits of positions of a joint.
+struct PositionLimits {
+  std::optional<double> lower = {};  ///< [rad or m]
+  std::optional<double> upper = {};  ///< [rad or m]
+};
+
 /// The moving robots in their resting environment.
 ///
 /// Several robots are one motion with one clock. The robots' joints that the motion does not name
@@ -40,6 +49,9 @@ struct RetimingScene {
   RobotScene scene;
   std::vector<std::size_t> robots = {0};  ///< Robots of the scene; one or more, each once.
   std::vector<RetimingHold> holds = {};   ///< Each pair once.
+  /// Limits of joints beside those of their robots, which hold, too. Joints are named as those of
+  /// joined_model().
+  std::map<std::string, PositionLimits> positions = {};
 };
 
 /// The moving robots as one model, by which limits and files of their joints are read.
