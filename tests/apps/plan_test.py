@@ -372,6 +372,23 @@ class Plan(tool_test.ToolTest):
         for option, key in (("--start", "plan.start"), ("--goal", "plan.goal")):
             self.assert_refused_with(self.plan("scene.json", option, "x=1"), f"in a scene, say it in {key}")
 
+    def test_moves_the_joints_of_a_requests_group(self):
+        self.file("gantry.urdf", URDF)
+        self.file("gantry.srdf", """<robot name="gantry"><group name="lift"><joint name="z"/></group>
+            <group name="both"><chain base_link="base" tip_link="tool"/></group></robot>""")
+        request = {"group_name": "lift", "goal_constraints": [{"position_constraints": [{
+            "link_name": "tool", "constraint_region": {
+                "primitives": [{"type": 2, "dimensions": [0.01]}], "primitive_poses": [{"position": [0, 0, 0.5]}]}}]}]}
+        robot = ["--robot", "gantry.urdf", "--request", "request.json"]
+        for group, joints in (("lift", ["z"]), ("both", ["x", "z"])):
+            self.file("request.json", {**request, "group_name": group})
+            result = self.plan(*robot, "--srdf", "gantry.srdf", "--json")
+            self.assertEqual(result.returncode, 0, result)
+            self.assertEqual(json.loads(result.stdout)["moves"]["joints"], joints)
+        self.assert_refused_with(self.plan(*robot), "group_name", "SRDF")
+        self.file("request.json", {**request, "group_name": "left"})
+        self.assert_refused_with(self.plan(*robot, "--srdf", "gantry.srdf"), "group_name", "lift, both", '"left"')
+
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()

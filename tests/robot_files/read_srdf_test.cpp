@@ -73,9 +73,9 @@ TEST(ReadSrdf, CollectsGroups) {
       "<group name='tip'><link name='b'/></group>");
   ASSERT_EQ(semantics.groups.size(), 3u);
   EXPECT_EQ(semantics.groups[1].links, (Indices{1, 2}));
-  EXPECT_EQ(semantics.groups[1].joints, (Indices{0, 1}));
+  EXPECT_EQ(semantics.groups[1].joints, (Indices{1}));  // Not the one that moves "a".
   EXPECT_EQ(semantics.groups[0].links, (Indices{1, 2, 3}));
-  EXPECT_EQ(semantics.groups[0].joints, (Indices{0, 1, 2}));
+  EXPECT_EQ(semantics.groups[0].joints, (Indices{1, 2}));
   EXPECT_EQ(semantics.groups[2].links, (Indices{2}));
   EXPECT_EQ(semantics.groups[2].joints, (Indices{1}));
 }

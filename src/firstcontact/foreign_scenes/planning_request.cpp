@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/text_tree.h>
@@ -111,15 +114,95 @@ bool is_of_link(const JsonValue& goal) {
          find_filled(goal, "orientation_constraints") != nullptr;
 }
 
+/// The group whose joints move: MoveIt plans for one. The SRDF tells its joints.
+class MovedGroup {
+ public:
+  MovedGroup(const JsonValue& request, const RobotModel& robot,
+             const std::vector<RobotGroup>& groups, const JsonReader& read)
+      : named_(find_filled(request, "group_name")), robot_(robot), read_(read) {
+    const auto* text = named_ == nullptr ? nullptr : std::get_if<std::string>(&named_->value);
+    if (text != nullptr && text->empty()) {
+      named_ = nullptr;
+    }
+    if (named_ == nullptr || groups.empty()) {
+      return;
+    }
+    const std::string& name = read.string(*named_, "the name of a group, a string");
+    const auto found = std::ranges::find(groups, name, &RobotGroup::name);
+    if (found == groups.end()) {
+      std::vector<std::string> names;
+      std::ranges::transform(groups, std::back_inserter(names), &RobotGroup::name);
+      read.fail(*named_, "expected a group of the SRDF (" + detail::some_of(names) + "), got " +
+                             in_quotes(name));
+    }
+    group_ = &*found;
+  }
+
+  /// Refuses a goal for a joint that is not of the group.
+  void require(const JsonValue& where, const std::string& name) const {
+    if (group_ != nullptr && !names_fixed_joint(robot_, name) &&
+        !has(find_coordinate(robot_, name).joint)) {
+      read_.fail(where, "expected a joint of group " + in_quotes(group_->name) + ", got " +
+                            in_quotes(name));
+    }
+  }
+
+  /// The coordinates of the group that move a link; empty where the request names no group.
+  [[nodiscard]] std::vector<std::string> coordinates_above(const std::string& link) const {
+    if (named_ == nullptr) {
+      return {};
+    }
+    if (group_ == nullptr) {
+      read_.fail(*named_, "expected an SRDF with groups, which tells what joints move; got none");
+    }
+    std::vector<std::string> names;
+    for (const std::size_t joint : robot_.chain(robot_.root(), robot_.find_link(link).value())) {
+      add_coordinates(joint, names);
+    }
+    if (names.empty()) {
+      read_.fail(*named_, "expected a group that moves link " + in_quotes(link) + ", got " +
+                              in_quotes(group_->name));
+    }
+    return names;
+  }
+
+ private:
+  [[nodiscard]] bool has(std::size_t joint) const {
+    return std::ranges::find(group_->joints, joint) != group_->joints.end();
+  }
+
+  /// Adds the coordinates of a joint, or of the one that it mimics, each once.
+  void add_coordinates(std::size_t joint, std::vector<std::string>& names) const {
+    bool is_moved = has(joint);
+    while (const std::optional<Mimic>& mimic = robot_.joints()[joint].mimic) {
+      joint = robot_.find_joint(mimic->joint).value();
+      is_moved = is_moved || has(joint);
+    }
+    const std::size_t count = is_moved ? coordinate_count(robot_.joints()[joint].type) : 0;
+    for (std::size_t index = 0; index < count; ++index) {
+      const std::string name = coordinate_name(robot_, {joint, index});
+      if (std::ranges::find(names, name) == names.end()) {
+        names.push_back(name);
+      }
+    }
+  }
+
+  const JsonValue* named_;  // Null where the request names no group.
+  const RobotModel& robot_;
+  const JsonReader& read_;
+  const RobotGroup* group_ = nullptr;  // Null also where the robot has no groups.
+};
+
 /// Reads the positions that the joints shall reach.
 detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotModel& robot,
-                                     const JsonReader& read) {
+                                     const MovedGroup& group, const JsonReader& read) {
   detail::MessageState goal;
   for (const JsonValue& constraint : read.array(constraints, "an array of joint constraints")) {
     (void)read.object(constraint,
                       {{"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}});
-    detail::add_position(read.member(constraint, "joint_name"), read.member(constraint, "position"),
-                         robot, read, goal);
+    const JsonValue& name = read.member(constraint, "joint_name");
+    detail::add_position(name, read.member(constraint, "position"), robot, read, goal);
+    group.require(name, read.string(name, "the name of a joint"));
   }
   return goal;
 }
@@ -127,7 +210,8 @@ detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotMo
 }  // namespace
 
 PlanningRequest parse_planning_request(std::string_view text, const std::filesystem::path& source,
-                                       const RobotModel& robot) {
+                                       const RobotModel& robot,
+                                       const std::vector<RobotGroup>& groups) {
   const FloatEnvironmentGuard guard;
   const std::string name = source.string();
   const JsonValue root = detail::parse_tree(text, source);
@@ -140,6 +224,7 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
   }
   require_request_keys(request, read);
   PlanningRequest result;
+  const MovedGroup group(request, robot, groups, read);
   std::vector<std::string> fixed;
   if (const JsonValue* state = find_filled(request, "start_state")) {
     detail::require_state_keys(*state, read);
@@ -164,11 +249,12 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
               "\"orientation_constraints\" of one link");
   }
   if (constraints != nullptr) {
-    detail::MessageState goal = read_joint_goal(*constraints, robot, read);
+    detail::MessageState goal = read_joint_goal(*constraints, robot, group, read);
     result.goal = std::move(goal.positions);
     fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
   } else {
     result.link_goal = detail::read_pose_constraints(wanted, robot, result.base, read);
+    result.joints = group.coordinates_above(result.link_goal->link);
   }
   if (!fixed.empty()) {
     result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));
@@ -176,8 +262,9 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
   return result;
 }
 
-PlanningRequest read_planning_request(const std::filesystem::path& path, const RobotModel& robot) {
-  return parse_planning_request(detail::read_file(path, "a request"), path, robot);
+PlanningRequest read_planning_request(const std::filesystem::path& path, const RobotModel& robot,
+                                      const std::vector<RobotGroup>& groups) {
+  return parse_planning_request(detail::read_file(path, "a request"), path, robot, groups);
 }
 
 Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,

@@ -14,6 +14,7 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/scene/plan_question.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/trajectory.h>
@@ -56,6 +57,8 @@ struct PlanningRequest {
   JointPositions start;
   JointPositions goal;  ///< Positions at the goal. Joints that it does not name keep their start.
   std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
+  /// The joints of `group_name` that move this link; empty where there is no group.
+  std::vector<std::string> joints = {};
   Pose base;                               ///< Pose of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
@@ -87,15 +90,19 @@ struct PlanningRequest {
 /// Positions of fixed joints are left out with a warning. A quaternion of zeros is the identity,
 /// with a warning, too.
 ///
+/// @param groups  of the robot's SRDF, for `group_name`. A goal of joints may do without them, and
+///                names joints of the group alone
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest
-read_planning_request(const std::filesystem::path& path, const RobotModel& robot);
+read_planning_request(const std::filesystem::path& path, const RobotModel& robot,
+                      const std::vector<RobotGroup>& groups = {});
 
 /// Parses the text of a request, as read_planning_request() reads it.
 ///
 /// @param source  names the text in errors
-[[nodiscard]] FIRSTCONTACT_API PlanningRequest parse_planning_request(
-    std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
+[[nodiscard]] FIRSTCONTACT_API PlanningRequest
+parse_planning_request(std::string_view text, const std::filesystem::path& source,
+                       const RobotModel& robot, const std::vector<RobotGroup>& groups = {});
 
 /// Makes the motion from the start to the goal at constant rates, as fast as the velocity limits
 /// allow.

@@ -283,7 +283,11 @@ class SrdfReader {
     }
     // For two arms it is their torso.
     const std::size_t top = robot_.last_common_ancestor(*base, *tip);
-    add_link(members, top);
+    if (top == *base) {
+      members.links.insert(top);  // As in MoveIt, without the joint above it.
+    } else {
+      add_link(members, top);
+    }
     for (const std::size_t end : {*base, *tip}) {
       for (const std::size_t joint : robot_.chain(top, end)) {
         add_link(members, robot_.child_link(joint));

@@ -132,14 +132,16 @@ class SceneBuilder {
   }
 
   void take_request(SceneRobot& robot) {
-    const PlanningRequest request = parse_planning_request(text_of(question_.request, "a request"),
-                                                           question_.request, robot.model);
+    const PlanningRequest request =
+        parse_planning_request(text_of(question_.request, "a request"), question_.request,
+                               robot.model, robot.semantics.groups);
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
     if (!request.link_goal) {
       goal_ = request.goal;
     } else if (question_.plans) {
-      scene_.plan = PlanQuestion{.robots = {0}, .link_goals = {*request.link_goal}};
+      scene_.plan =
+          PlanQuestion{.robots = {0}, .joints = request.joints, .link_goals = {*request.link_goal}};
     } else {
       throw ParseError(question_.request.string(),
                        "expected a goal of joint positions, got the pose of a link; "
