@@ -14,6 +14,7 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/retiming/joint_limits.h>
 #include <firstcontact/retiming/retime.h>
@@ -80,11 +81,31 @@ RetimingPath read_input(const Arguments& arguments) {
   return input;
 }
 
+/// Multiplies limits by the factors of a request.
+void scale_by_request(const std::string& file, const RobotModel& model,
+                      std::vector<RateLimits>& limits) {
+  const PlanningRequest request = read_planning_request(file, model);
+  if (request.cartesian_speed > 0.0) {
+    throw ParseError(file, fmt::format("max_cartesian_speed: expected 0, as the speed of a link is "
+                                       "not limited here, got {}",
+                                       request.cartesian_speed));
+  }
+  for (RateLimits& limit : limits) {
+    limit.velocity *= request.velocity_scaling;
+    limit.acceleration *= request.acceleration_scaling;
+  }
+}
+
 /// @param model  the model of all robots that move
 std::vector<RateLimits> rate_limits(const Arguments& arguments, const RetimingPath& input,
                                     const RobotModel& model,
                                     const std::map<std::string, GivenLimits>& given) {
-  return limits_of(model, input.path.joint_names, given, arguments.others);
+  std::vector<RateLimits> limits =
+      limits_of(model, input.path.joint_names, given, arguments.others);
+  if (!arguments.robot.request.empty()) {
+    scale_by_request(arguments.robot.request, model, limits);
+  }
+  return limits;
 }
 
 /// Writes the lines of the answer.

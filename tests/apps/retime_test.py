@@ -144,6 +144,25 @@ class Retime(tool_test.ToolTest):
         self.assertFalse((self.folder / "out.yaml").exists())
 
 
+    def test_keeps_the_factors_of_a_request(self):
+        request = {"start_state": {"joint_state": {"name": ["shoulder", "elbow"], "position": [0, 0]}},
+                   "goal_constraints": [{"joint_constraints": [{"joint_name": "shoulder", "position": 1}]}]}
+        durations = {}
+        for velocity, acceleration in ((1, 1), (0, 0), (0.1, 1), (1, 0.1)):
+            file = self.file("request.json", {**request, "max_velocity_scaling_factor": velocity,
+                                              "max_acceleration_scaling_factor": acceleration})
+            result = self.retime("--request", file, out="out.json")
+            self.assertEqual(result.returncode, 0, result)
+            last = json.loads((self.folder / "out.json").read_text())["points"][-1]["time_from_start"]
+            durations[velocity, acceleration] = last["sec"] + 1e-9 * last["nanosec"]
+        self.assertEqual(durations[0, 0], durations[1, 1])  # 0 is unset.
+        self.assertGreater(durations[0.1, 1], 1 / 0.15)
+        self.assertGreater(durations[1, 0.1], 2 * (1 / 0.5) ** 0.5)
+        for key, value in (("max_velocity_scaling_factor", 1.5), ("max_acceleration_scaling_factor", -1),
+                           ("max_cartesian_speed", 0.2)):
+            file = self.file("request.json", {**request, key: value})
+            self.assert_refused_with(self.retime("--request", file), "request.json", key)
+
     def test_keeps_the_positions_of_the_limits(self):
         def retime(elbow: str) -> object:
             limits = self.file("l.yaml", LIMITS.replace("  elbow: {", "  elbow: {" + elbow))

@@ -74,5 +74,23 @@ TEST(PlanningRequest, NamesAGroupThatDoesNotFit) {
             "group \"lifts\", got \"turn\"");
 }
 
+TEST(PlanningRequest, HasScalingFactors) {
+  const auto read = [](const std::string& keys) {
+    return parse_planning_request(hook_request(keys), "r.yaml", crane());
+  };
+  const PlanningRequest scaled = read(
+      "max_velocity_scaling_factor: 0.1\nmax_acceleration_scaling_factor: 0.5\n"
+      "max_cartesian_speed: 0.25");
+  EXPECT_EQ(scaled.velocity_scaling, 0.1);
+  EXPECT_EQ(scaled.acceleration_scaling, 0.5);
+  EXPECT_EQ(scaled.cartesian_speed, 0.25);
+  EXPECT_EQ(read("max_velocity_scaling_factor: 0").velocity_scaling, 1.0);
+  EXPECT_EQ(read("").acceleration_scaling, 1.0);
+  for (const char* wrong : {"-0.1", "1.5", ".nan", "fast"}) {
+    EXPECT_THROW((void)read("max_acceleration_scaling_factor: " + std::string(wrong)), ParseError)
+        << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

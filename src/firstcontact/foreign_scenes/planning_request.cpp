@@ -193,6 +193,19 @@ class MovedGroup {
   const RobotGroup* group_ = nullptr;  // Null also where the robot has no groups.
 };
 
+/// Reads a factor that a request multiplies limits by; 0, as messages have it unset, stands for 1.
+double read_scaling(const JsonValue& request, const char* key, const JsonReader& read) {
+  const JsonValue* value = find(std::get<JsonObject>(request.value), key);
+  if (value == nullptr) {
+    return 1.0;
+  }
+  const double factor = read.number(*value);
+  if (!(factor >= 0.0 && factor <= 1.0)) {
+    read.fail_expected("a factor from 0 to 1", *value);
+  }
+  return factor > 0.0 ? factor : 1.0;
+}
+
 /// Reads the positions that the joints shall reach.
 detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotModel& robot,
                                      const MovedGroup& group, const JsonReader& read) {
@@ -224,6 +237,11 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
   }
   require_request_keys(request, read);
   PlanningRequest result;
+  result.velocity_scaling = read_scaling(request, "max_velocity_scaling_factor", read);
+  result.acceleration_scaling = read_scaling(request, "max_acceleration_scaling_factor", read);
+  if (const JsonValue* speed = find(std::get<JsonObject>(request.value), "max_cartesian_speed")) {
+    result.cartesian_speed = read.not_negative(*speed);
+  }
   const MovedGroup group(request, robot, groups, read);
   std::vector<std::string> fixed;
   if (const JsonValue* state = find_filled(request, "start_state")) {

@@ -59,6 +59,9 @@ struct PlanningRequest {
   std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
   /// The joints of `group_name` that move this link; empty where there is no group.
   std::vector<std::string> joints = {};
+  double velocity_scaling = 1.0;           ///< [-]  Factor of the velocity limits; in (0, 1].
+  double acceleration_scaling = 1.0;       ///< [-]  Factor of the acceleration limits; in (0, 1].
+  double cartesian_speed = 0.0;            ///< [m/s]  Most of a link's speed; 0: unlimited.
   Pose base;                               ///< Pose of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
@@ -88,7 +91,7 @@ struct PlanningRequest {
 /// Reads a request with one goal: positions of joints, or the pose of a link.
 ///
 /// Positions of fixed joints are left out with a warning. A quaternion of zeros is the identity,
-/// with a warning, too.
+/// with a warning, too. A scaling factor of 0 counts as 1, as in MoveIt.
 ///
 /// @param groups  of the robot's SRDF, for `group_name`. A goal of joints may do without them, and
 ///                names joints of the group alone
