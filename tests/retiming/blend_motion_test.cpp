@@ -112,6 +112,28 @@ TEST(Retime, ShortensABlendAsOftenAsNeeded) {
   EXPECT_GE(retimed.shortened, 3u);
 }
 
+// Steps with a post in every inner corner: each blend is shortened apart from all others.
+TEST(Retime, ShortensManyBlends) {
+  WaypointPath path{{"x", "y"}, {{0.0, 0.0}}};
+  std::vector<Post> posts;
+  for (int k = 0; k < 16; ++k) {
+    const double across = k % 2 == 0 ? 1.0 : 0.0;
+    const std::vector<double>& from = path.waypoints.back();
+    path.waypoints.push_back({from[0] + across, from[1] + 1.0 - across});
+    const double side = k % 2 == 0 ? 1.0 : -1.0;  // Inside of the corner.
+    posts.push_back(
+        {{path.waypoints.back()[0] - 0.06 * side, path.waypoints.back()[1] + 0.06 * side}, 0.009});
+  }
+  for (const RetimingMode mode : {RetimingMode::blend, RetimingMode::time_optimal}) {
+    const RetimedMotion retimed = retime(path, kGantryLimits, gantry_among(posts), {.mode = mode});
+    EXPECT_TRUE(retimed.proof.is_proven());
+    EXPECT_EQ(retimed.mode, mode);
+    EXPECT_EQ(retimed.blends, 15u);
+    EXPECT_GE(retimed.shortened, 15u);
+    EXPECT_LT(retimed.motion.duration(), retimed.stop_duration);
+  }
+}
+
 // A post on an edge: no retiming helps; the answer has the pair and the time.
 TEST(Retime, RefusesAnEdgeInContact) {
   const WaypointPath path{{"x", "y"}, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}};

@@ -1,8 +1,11 @@
 #include <firstcontact/retiming/retime.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <firstcontact/retiming/blend_motion.h>
 #include <firstcontact/retiming/stop_motion.h>
@@ -53,11 +56,11 @@ class Retimer {
     return motion;
   }
 
-  BlendedMotion blended_within_limits(const std::vector<double>& longest) const {
+  BlendedMotion blended_within_limits(const std::vector<double>& longest, RetimingMode mode) const {
     BlendedMotion blended;
     (void)within_limits([&](double share) {
       blended = blend_motion(path_, limits_, longest, share);
-      if (options_.mode == RetimingMode::time_optimal) {
+      if (mode == RetimingMode::time_optimal) {
         blended = time_optimal_motion(blended, path_, limits_, share);
       }
       return blended.motion;
@@ -80,8 +83,11 @@ class Retimer {
   /// A proven motion with blends that is faster than the one without; none where there is none.
   std::optional<RetimedMotion> blend(double stop_duration) {
     std::vector<double> longest = longest_blends();
+    if (where_.holds.empty()) {  // Holds are for the times of the whole motion.
+      shorten_apart(longest);
+    }
     while (!options_.proof.budget.stop.stop_requested()) {
-      BlendedMotion blended = blended_within_limits(longest);
+      BlendedMotion blended = blended_within_limits(longest, options_.mode);
       if (!(blended.motion.duration() < stop_duration)) {
         return std::nullopt;
       }
@@ -104,10 +110,58 @@ class Retimer {
     return std::nullopt;
   }
 
+  /// Shortens all blends that are not free by themselves, until the others are free.
+  ///
+  /// A proof of the whole motion ends at its first contact: that would take a proof for each blend.
+  /// Of a blend only the motion that was not yet proven is proven.
+  void shorten_apart(std::vector<double>& longest) {
+    std::vector<TimedMotion> free(longest.size());
+    bool is_done = false;
+    while (!is_done && !options_.proof.budget.stop.stop_requested()) {
+      const BlendedMotion blended = blended_within_limits(longest, RetimingMode::blend);
+      is_done = true;
+      for (std::size_t k = 0; k < longest.size(); ++k) {
+        const Blend& blend = blended.blends[k];
+        TimedMotion part = part_of(blended.motion, blend.begin, blend.end);
+        if (part.points.size() < 2 || part == free[k]) {
+          continue;
+        }
+        if (prove(part).contact.verdict == Verdict::free) {
+          free[k] = std::move(part);
+        } else {
+          halve(blend, longest[k]);
+          is_done = false;
+        }
+      }
+    }
+  }
+
+  /// The motion between two of its points, from the time 0 on.
+  ///
+  /// @param begin  [ns]
+  /// @param end    [ns]
+  static TimedMotion part_of(const TimedMotion& motion, std::int64_t begin, std::int64_t end) {
+    TimedMotion part{.joint_names = motion.joint_names, .points = {}};
+    for (const TimedPoint& point : motion.points) {
+      if (begin <= point.time && point.time <= end) {
+        part.points.push_back(point);
+        part.points.back().time -= begin;
+      }
+    }
+    return part;
+  }
+
+  /// Halves the longest blend at a waypoint.
+  void halve(const Blend& blend, double& longest) {
+    constexpr double kShortest = 1e-3;  // [-]  Share of an edge; shorter blends gain nothing.
+    longest = 0.5 * std::max(blend.before, blend.after);
+    longest = longest < kShortest ? 0.0 : longest;
+    ++shortened_;
+  }
+
   /// Shortens the blend that is in contact or undecided; false where none is.
   bool shorten(const std::vector<Blend>& blends, const ExecutedProof& proof,
                std::vector<double>& longest) {
-    constexpr double kShortest = 1e-3;  // [-]  Share of an edge; shorter blends gain nothing.
     const double at = proof.contact_time() * 1e9;
     for (std::size_t k = 0; k < blends.size(); ++k) {
       const Blend& blend = blends[k];
@@ -116,9 +170,7 @@ class Retimer {
       constexpr double kMeeting = 1000.0;  // [ns]
       if (is_blend && static_cast<double>(blend.begin) - kMeeting <= at &&
           at <= static_cast<double>(blend.end) + kMeeting) {
-        longest[k] = 0.5 * std::max(blend.before, blend.after);
-        longest[k] = longest[k] < kShortest ? 0.0 : longest[k];
-        ++shortened_;
+        halve(blend, longest[k]);
         return true;
       }
     }
