@@ -123,9 +123,10 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
   text +=
       answer_line("time lost",
                   time_lost_ > 0.0 ? time_text(time_lost_) + ": bodies waited for a tool" : "none");
-  if (wall && wall->paused_ns > 0) {
-    text += answer_line("paused", time_text(1e-9 * static_cast<double>(wall->paused_ns)) +
-                                      ": the machine stopped the contact loop, bodies stood");
+  if (wall && wall->behind_ns > 0) {
+    text +=
+        answer_line("behind", time_text(1e-9 * static_cast<double>(wall->behind_ns)) +
+                                  ": bodies that move, as cycles took longer than their period");
   }
   return wall ? text + wall_text(*wall) : text;
 }

@@ -31,8 +31,6 @@ using WallClock = std::chrono::steady_clock;
 constexpr int kForcePriority = 80;
 constexpr int kContactPriority = 60;
 constexpr std::size_t kRing = 1U << 14;  // [ticks]  4 s at 4 kHz.
-// [ns]  Longest time for which courses move on in a cycle. After a longer pause they would jump.
-constexpr std::int64_t kLongestCycle = 50'000'000;
 // [ns]  Time for which the loop that does nothing runs.
 constexpr std::int64_t kEmptyNs = 200'000'000;
 
@@ -216,11 +214,12 @@ class ContactThread {
   void make_cycle(const HandedTargets& handed) {
     const std::int64_t cpu = cpu_now_ns();
     const std::int64_t begin = steady_now_ns();
+    count_delay(begin);
     const WallClock::time_point deadline(std::chrono::nanoseconds(begin + period_ns_));
     const HapticCycle& cycle =
         loop_.advance({.poses = std::span(handed.targets).first(loop_.scene().tools.size()),
                        .joints = std::span(handed.joints).first(handed.joint_count)},
-                      1e-9 * static_cast<double>(length_of_cycle(begin)), handed.time_ns, deadline);
+                      1e-9 * static_cast<double>(period_ns_), handed.time_ns, deadline);
     report_.cycle_wall.add(steady_now_ns() - begin);
     report_.cycle_cpu.add(cpu_now_ns() - cpu);
     if (wall_.contact_delay_ns > 0) {
@@ -235,15 +234,10 @@ class ContactThread {
     shared_.cycles.emplace_back(cycle, handed.time_ns);
   }
 
-  /// [ns]  Computes the time for which courses move on in a cycle, so that they are a period after
-  /// its begin where they should be then.
-  std::int64_t length_of_cycle(std::int64_t begin) {
-    const std::int64_t passed = begin_ ? begin - *begin_ : period_ns_;
+  /// Counts the time by which courses fall behind the wall clock: they move on by a period a cycle.
+  void count_delay(std::int64_t begin) {
+    report_.behind_ns += begin_ ? begin - *begin_ - period_ns_ : 0;
     begin_ = begin;
-    const std::int64_t length =
-        std::clamp<std::int64_t>(passed, 1, std::max(kLongestCycle, period_ns_));
-    report_.paused_ns += passed - length;
-    return length;
   }
 
   SharedSession& shared_;

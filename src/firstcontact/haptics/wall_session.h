@@ -41,9 +41,9 @@ struct WallSessionReport {
   std::uint64_t late_ticks = 0;     ///< Ticks that began more than a period after their time.
   std::uint64_t skipped_ticks = 0;  ///< Ticks whose time passed before the tick before them ended.
   std::uint64_t cycles = 0;
-  /// [ns]  Time by which bodies with courses are late, as a cycle began more than 50 ms after the
-  /// one before. In all other cycles courses move on for the time that has passed.
-  std::int64_t paused_ns = 0;
+  /// [ns]  Time by which courses are behind the wall clock at the end. They move on by a period of
+  /// the contact loop in each cycle. After a longer cycle the next one begins later.
+  std::int64_t behind_ns = 0;
   std::uint64_t unread_ticks = 0;   ///< Ticks that the caller was too slow to take.
   TimingHistogram tick_cpu = {};    ///< Thread CPU time of the force loop's body.
   TimingHistogram tick_wall = {};   ///< Wall time of the same.

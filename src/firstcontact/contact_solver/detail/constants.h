@@ -56,11 +56,11 @@ inline constexpr std::size_t kPartOfAll = 4;
 
 /// [contacts]  Most contacts of a problem whose impulses are shared evenly.
 inline constexpr std::size_t kMostToShare = 12;
-/// [shares]  Most shares: a contact that slides has one, a contact that sticks three. The work grows
-/// with the cube of the number.
+/// [shares]  Most shares: a contact that slides has one, a contact that sticks three. The work
+/// grows with the cube of the number.
 inline constexpr int kMostShares = 12;
-/// [-]  Rounds in which directions of friction and shares settle go on while each leaves at most this
-/// part of the residual before it.
+/// [-]  Rounds in which directions of friction and shares settle go on while each leaves at most
+/// this part of the residual before it.
 inline constexpr double kGainOfSharing = 0.2;
 /// [steps]  Most steps of an active set in a round, for each contact.
 inline constexpr std::size_t kStepsOfSharing = 3;
