@@ -253,9 +253,8 @@ class Solver {
 
   ContactSolution by_multipliers() {
     const Projection before = projection_;
-    const std::optional<detail::DecoupledTies> ties = decoupled_ties();
-    if (ties && ties->least_left() < detail::kNearlyImplied) {
-      by_decoupled(*ties);
+    if (can_decouple() && detail::least_left_of_ties(rows_) < detail::kNearlyImplied) {
+      by_decoupled_ties();
       if (is_solved(projection_)) {
         return solution(projection_, ProjectionSpace::motion);
       }
@@ -266,8 +265,8 @@ class Solver {
         are_unequal(problem_)) {
       by_interior_point_after_all();
     }
-    if (!is_solved(projection_) && ties) {
-      by_decoupled(*ties);
+    if (!is_solved(projection_) && can_decouple()) {
+      by_decoupled_ties();
     }
     return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
                                                   : solution(projection_, ProjectionSpace::motion);
@@ -283,18 +282,18 @@ class Solver {
     }
   }
 
-  /// Decouples the rigid ties; nothing where there are too few or too many.
-  [[nodiscard]] std::optional<detail::DecoupledTies> decoupled_ties() const {
-    if (problem_.ties.size() < 2 || moving_velocities(problem_) > detail::kMostForDecoupling) {
-      return std::nullopt;
-    }
-    detail::DecoupledTies ties(problem_, rows_);
-    return ties.empty() ? std::nullopt : std::optional(std::move(ties));
+  /// Whether there may be rigid ties to decouple, and not too many.
+  [[nodiscard]] bool can_decouple() const {
+    return problem_.ties.size() >= 2 && moving_velocities(problem_) <= detail::kMostForDecoupling;
   }
 
   /// Tries multipliers for combinations of rigid ties. Without other rows there is nothing left for
   /// them to do.
-  void by_decoupled(const detail::DecoupledTies& ties) {
+  void by_decoupled_ties() {
+    const detail::DecoupledTies ties(problem_, rows_);
+    if (ties.empty()) {
+      return;
+    }
     ProjectionOptions options = options_;
     options.tolerance /= static_cast<double>(problem_.ties.size());
     Projection found = projection_;

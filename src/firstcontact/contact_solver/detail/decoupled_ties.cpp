@@ -80,7 +80,45 @@ bool is_rigid(const DriveRow& row) {
          std::isinf(row.greatest);
 }
 
+/// Computes the velocity along one tie that a unit impulse along another one causes.
+double response_between(const DriveRow& one, const DriveRow& other) {
+  double sum = 0.0;
+  for (const TieRowSide& on : one.tie) {
+    for (const TieRowSide& by : other.tie) {
+      if (on.at == by.at) {
+        sum += on.J.dot(by.response);
+      }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
+
+// The diagonal of a Cholesky factorisation of their responses.
+double least_left_of_ties(const ContactRows& rows) {
+  std::vector<const DriveRow*> rigid;
+  for (const DriveRow& row : rows.drives) {
+    if (is_rigid(row)) {
+      rigid.push_back(&row);
+    }
+  }
+  const auto n = static_cast<Index>(rigid.size());
+  MatrixXd L = MatrixXd::Zero(n, n);
+  double least = 1.0;
+  for (Index k = 0; k < n; ++k) {
+    const DriveRow& row = *rigid[static_cast<std::size_t>(k)];
+    for (Index l = 0; l < k; ++l) {
+      const double product = L.row(k).head(l).dot(L.row(l).head(l));
+      const double response = response_between(row, *rigid[static_cast<std::size_t>(l)]);
+      L(k, l) = L(l, l) > 0.0 ? (response - product) / L(l, l) : 0.0;
+    }
+    const double left = row.own - L.row(k).head(k).squaredNorm();
+    least = std::min(least, left / row.own);
+    L(k, k) = std::sqrt(std::max(0.0, left));
+  }
+  return least;
+}
 
 DecoupledTies::DecoupledTies(const ContactProblem& problem, const ContactRows& rows) : rows_(rows) {
   std::vector<Combination> all;
@@ -107,7 +145,6 @@ DecoupledTies::DecoupledTies(const ContactProblem& problem, const ContactRows& r
     DriveRow& row = rows_.drives[rigid_[k]];
     const double whole = row.own;
     row = all[k].row(std::move(row), parts);
-    least_left_ = std::min(least_left_, row.own / whole);
     if (!(row.own > kImplied * whole)) {
       all[k].own = 0.0;
       row.least = 0.0;

@@ -13,6 +13,10 @@
 
 namespace firstcontact::detail {
 
+/// [-]  Finds the least part of a rigid tie's response that the ties before it leave; 1 without
+/// any.
+[[nodiscard]] double least_left_of_ties(const ContactRows& rows);
+
 /// The rows of a problem in which combinations take the place of its rigid ties. A rigid tie does
 /// not yield, and its impulse has no bounds.
 ///
@@ -30,9 +34,6 @@ class DecoupledTies {
 
   /// Whether there are no two rigid ties, and so nothing to combine.
   [[nodiscard]] bool empty() const { return rigid_.size() < 2; }
-
-  /// [-]  The least response of a combination, as a fraction of its tie's.
-  [[nodiscard]] double least_left() const { return least_left_; }
 
   /// The rows with the combinations.
   [[nodiscard]] const ContactRows& rows() const { return rows_; }
@@ -53,7 +54,6 @@ class DecoupledTies {
   ContactRows rows_;
   std::vector<std::size_t> rigid_ = {};  // Indices of rigid ties among the drives, in their order.
   Eigen::MatrixXd shares_ = {};          // Unit lower triangle: ties by combinations.
-  double least_left_ = 1.0;
 };
 
 }  // namespace firstcontact::detail
