@@ -20,6 +20,7 @@ namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
+
 /// The contacts of a pair of bodies of a problem.
 struct Pair {
   BodyPair bodies;
