@@ -27,7 +27,7 @@ std::string path_headline(const PlannedPath& path, const PathVerification& found
     return "not proven";
   }
   const std::string what =
-      path.waypoints.size() == 1 ? "one place, no edge" : counted(found.edges, "edge");
+      path.waypoints.size() == 1 ? "one waypoint, no edge" : counted(found.edges, "edge");
   return "proven: " + what +
          (found.reaches_goal ? ", to a goal" : ", approximate: it ends before a goal");
 }

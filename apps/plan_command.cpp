@@ -156,7 +156,7 @@ class Plan {
     options.threads = arguments_.threads;
     options.stop = interrupt_.token();
     options.progress = [this](const PlanProgress& done) {
-      progress_.doing(fmt::format("planning: {} places{}", done.nodes,
+      progress_.doing(fmt::format("planning: {} configurations{}", done.nodes,
                                   done.cost ? fmt::format(", a path of {:.4g}", *done.cost) : ""));
     };
   }
@@ -247,9 +247,10 @@ class Plan {
       text = fmt::format("{}: {}\n", visible(source_),
                          path->is_proven ? "a path to the goal, proven edge by edge"
                                          : "approximate: proven, but it ends before a goal");
-      line("path", fmt::format("{}, {}, length {:.6g}{}", counted(path->waypoints.size(), "place"),
-                               counted(path->clearances.size(), "edge"), path->cost,
-                               shortened_text(path->cost, result.statistics.first_cost)));
+      line("path",
+           fmt::format("{}, {}, length {:.6g}{}", counted(path->waypoints.size(), "waypoint"),
+                       counted(path->clearances.size(), "edge"), path->cost,
+                       shortened_text(path->cost, result.statistics.first_cost)));
       if (!path->times.empty()) {
         line("arrives", fmt::format("after {}, and rests until {}", time_text(arrival(*path)),
                                     time_text(path->times.back())));
@@ -271,7 +272,7 @@ class Plan {
     const PlanStatistics& counts = result.statistics;
     line("time", fmt::format("{}; {} checked, {} undecided, {} in trees", time_text(counts.seconds),
                              counted(counts.edges_checked, "edge"), counts.undecided,
-                             counted(counts.nodes, "place")));
+                             counted(counts.nodes, "configuration")));
     line("planner",
          fmt::format("{}, seed {}", kPlannerWords.at(static_cast<std::size_t>(options.planner)),
                      options.seed));

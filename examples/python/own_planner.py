@@ -35,10 +35,10 @@ def check(places: np.ndarray, further: np.ndarray) -> fc.EdgeAnswers:
     return edges.check(poses(places), poses(further))
 
 
-# For comparison: a planner that samples 100 places of each edge.
+# For comparison: a planner that samples 100 configurations of each edge.
 steps = np.linspace(start, goal, 100)
 seen = (edges.clearance(poses(steps)) > 0).all()
-print(f"straight on: 100 places {'are free' if seen else 'are not free'}, "
+print(f"straight on: 100 configurations {'are free' if seen else 'are not free'}, "
       f"the edge is proven to {check(start[None], goal[None]).fraction[0]:.4f} of its length")
 
 # Each round adds one edge for each sample. One call checks all edges of a round.

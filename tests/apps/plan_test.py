@@ -198,7 +198,7 @@ class Plan(tool_test.ToolTest):
         cases = [
             (scene({"body": "peg", "goal": {"position": [0, 0, 0]}}), ["the goal", '"wall"', '"peg"', "deep"]),
             (scene({"body": "peg", "start": {"position": [0.02, 0, 0]}, "goal": GOAL}),
-             ["the start", '"wall"', '"peg"', "nearest free place"]),
+             ["the start", '"wall"', '"peg"', "nearest free configuration"]),
             (scene({"body": "nut", "goal": GOAL}), ['"nut"']),
             (scene({"body": "peg", "goal": GOAL, "time": 0}), ["time", "> 0"]),
             (scene(None), ['"plan"']),
@@ -225,7 +225,7 @@ class Plan(tool_test.ToolTest):
         question = {"body": "box", "margin": 0.01, "goal": {"position": [1, 0, 0.5]}}
         self.file("scene.json", scene(question, (table, box)))
         self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "the start is not free", '"table"',
-                                   '"box"', "0.01 m", "nearest free place")
+                                   '"box"', "0.01 m", "nearest free configuration")
         question["contact_pairs"] = [{"pair": ["box", "table"], "policy": "must_open"}]
         self.file("scene.json", scene(question, (table, box)))
         result = self.plan("scene.json", "-o", "path.json")

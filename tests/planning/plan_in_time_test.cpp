@@ -227,8 +227,9 @@ TEST(PlanInTime, NeedsAGoalThatIsFreeAtTheEnd) {
   };
   // The ball reaches 0.11 m beyond the near side of the door, which is shut at the end.
   const std::string blocked = message(door_scene(0.9));
-  EXPECT_NE(blocked.find("the goal, at the end of the time, is not free: \"ball\" and \"door\" "
-                         "touch, up to 0.11 m deep; the nearest free place that was found is at "),
+  EXPECT_NE(blocked.find(
+                "the goal, at the end of the time, is not free: \"ball\" and \"door\" "
+                "touch, up to 0.11 m deep; the nearest free configuration that was found is at "),
             std::string::npos)
       << blocked;
   const double offered = std::stod(blocked.substr(blocked.find(" is at ") + 7));

@@ -173,9 +173,9 @@ TEST(ContactPairs, KeepTheirMarginWhereTheyAreNotInContact) {
 TEST(ContactPairs, SayWhatIsNotFreeAndWhereItWouldBe) {
   const std::string touching =
       refusal_of(table_scene("0.0995", kGoalAbove + pair_with("may_stay")));
-  for (const char* part :
-       {"the start is not free", "\"table\" and \"box\" touch", "0.0005 m", "nearest free place",
-        "a distance of 0 leaves nothing to hold", "by 1e-06 m in the place that was found"}) {
+  for (const char* part : {"the start is not free", "\"table\" and \"box\" touch", "0.0005 m",
+                           "nearest free configuration", "a distance of 0 leaves nothing to hold",
+                           "by 1e-06 m in the configuration that was found"}) {
     EXPECT_NE(touching.find(part), std::string::npos) << touching;
   }
   const std::string exactly = refusal_of(table_scene("0.1", kGoalAbove + pair_with("must_open")));

@@ -246,9 +246,9 @@ class PlanAnswer(NamedTuple):
     verdict: str
     """``proven``; ``approximate``: so too, but it ends before a goal; ``none``."""
     waypoints: npt.NDArray[np.float64]
-    """n×d: a place per row, from the start on; no rows without a path."""
+    """n×d: a waypoint per row, from the start on; no rows without a path."""
     times: npt.NDArray[np.float64]
-    """[s]  (n,): of each place, where other bodies or robots move; else (0,)."""
+    """[s]  (n,): time of each waypoint, where other bodies or robots move; else (0,)."""
     clearance: npt.NDArray[np.float64]
     """[m]  Of each edge: proven lower bound of the distance of all tested pairs."""
     cost: float
@@ -258,7 +258,7 @@ class PlanAnswer(NamedTuple):
     distance_to_goal: float
     """Of its end, by the same length."""
     blocked: tuple[tuple[str, str, int], ...]
-    """Pairs, and how many edges and places each ended; the most frequent first."""
+    """Pairs, and how many edges and configurations each blocked; the most frequent first."""
     warnings: tuple[str, ...]
     json: str | None
     """The path file, as the tool's ``firstcontact plan -o`` writes it."""

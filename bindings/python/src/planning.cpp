@@ -68,7 +68,7 @@ std::vector<Configuration> places_from(py::handle value, const char* name, std::
   const py::array_t<double> array = matrix_from(value, name);
   if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(1)) != columns) {
     throw py::value_error(std::string(name) + ": expected n×" + std::to_string(columns) +
-                          " numbers, one place per row");
+                          " numbers, one configuration per row");
   }
   const auto numbers = array.unchecked<2>();
   std::vector<Configuration> places(static_cast<std::size_t>(array.shape(0)));
@@ -264,7 +264,7 @@ one checker at a time.)")
            py::arg("scene"), py::kw_only(), py::arg("extra_clearance") = defaults.extra_clearance,
            py::arg("effort") = defaults.effort)
       .def_property_readonly("joints", &joint_names_of,
-                             "The coordinates of a place; empty for a body.")
+                             "The coordinates of a configuration; empty for a body.")
       .def_property_readonly(
           "start", [](const HeldEdges& edges) { return owning(edges.plan().start); },
           "The start of the scene's plan.")

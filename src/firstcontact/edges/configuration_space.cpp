@@ -175,7 +175,7 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
                                                const Eigen::Vector3d& high, BodyEdges edges) {
   if (!(low.allFinite() && high.allFinite() && (low.array() <= high.array()).all())) {
     refuse_space("body " + detail::in_quotes(name) +
-                 ": expected a box of places with finite corners, the low one first");
+                 ": expected a box of positions with finite corners, the low one first");
   }
   RobotDescription description{.name = name, .links = {{.name = "body"}}, .joints = {}};
   description.links[0].collision.push_back(

@@ -142,8 +142,8 @@ struct PlanResult {
 ///
 /// @param goals  empty only where the search was stopped before it had any
 /// @throws std::invalid_argument  names the defect: an option, a limit, a place that is none; the
-///         start, or all goals, are not free, with the pair, its depth, and the nearest free place
-///         that was found; a contact pair is not tested, or touches at its end
+///         start, or all goals, are not free, with the pair, its depth, and the nearest free
+///         configuration that was found; a contact pair is not tested, or touches at its end
 [[nodiscard]] FIRSTCONTACT_API PlanResult plan_path(const PlanScene& scene,
                                                     const Configuration& start,
                                                     const std::vector<Configuration>& goals,

@@ -35,7 +35,7 @@ struct ScenePlan {
 /// A robot begins where its trajectory does. Other robots rest at their trajectories of one point.
 /// A body that a robot holds keeps its place in the link that it has at the start.
 ///
-/// Goals that are poses of links become places of the joints, by inverse kinematics. They share the
+/// Goals that are poses of links become configurations of the joints, by inverse kinematics. They share the
 /// time of the question with the search: `options.spent` is what they took.
 ///
 /// @param stop  ends inverse kinematics; `goals` may be empty then

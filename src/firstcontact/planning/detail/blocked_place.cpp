@@ -215,9 +215,10 @@ std::string describe_pair(const PlaceTest& test, const Configuration& q, const B
     text += too_near(test, placed, pair);
   }
   if (const std::optional<Configuration> place = free_place_near(test, q)) {
-    text += "; the nearest free place that was found is at " + numbers_of(test.scene.space, *place);
+    text += "; the nearest free configuration that was found is at " +
+            numbers_of(test.scene.space, *place);
   } else {
-    text += "; no free place was found near it";
+    text += "; no free configuration was found near it";
   }
   return text;
 }

@@ -22,7 +22,7 @@ struct PlaceTest {
 /// The test of places by a checker, which outlives the result.
 [[nodiscard]] PlaceTest test_of(const EdgeChecker& checker);
 
-/// Describes a pair in one sentence: its depth, and the nearest free place that was found.
+/// Describes a pair in one sentence: its depth, and the nearest free configuration that was found.
 ///
 /// The depth is an upper bound: the shortest of 26 straight ways on which the first shape leaves
 /// the second one for good. The place is on a straight way along an axis or in a random direction,

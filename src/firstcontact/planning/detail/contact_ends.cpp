@@ -97,7 +97,7 @@ void ContactEnds::measure(const PlanScene& plan, const ContactPair& pair,
     throw std::invalid_argument(
         describe_pair(test_of(checker), *touching.front(), pair.members, end + " is not free") +
         "; a contact pair has to be apart, as a distance of 0 leaves nothing to hold: by " +
-        quantity(tolerance, "m") + " in the place that was found");
+        quantity(tolerance, "m") + " in the configuration that was found");
   }
   if (!std::isfinite(least)) {
     warnings_.push_back("contact_pairs: " + names_of(plan, pair.members) +

@@ -29,8 +29,8 @@ class ContactEnds {
   /// @param kept       [m]  distance that a search keeps beyond the margins
   /// @param tolerance  [m]  of the search
   /// @throws std::invalid_argument if a pair is not tested, or touches at its end, so that no
-  ///         distance is left to hold. The message has the depth and the nearest free place that
-  ///         was found
+  ///         distance is left to hold. The message has the depth and the nearest free configuration
+  ///         that was found
   ContactEnds(const PlanScene& plan, const Configuration& start,
               const std::vector<Configuration>& goals, double kept, double tolerance);
 

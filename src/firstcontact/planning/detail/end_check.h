@@ -32,7 +32,8 @@ class EndCheck {
 
   [[nodiscard]] bool is_free(const Configuration& q);
 
-  /// Describes the pair that blocks a place, its depth, and the nearest free place that was found.
+  /// Describes the pair that blocks a place, its depth, and the nearest free configuration that was
+  /// found.
   ///
   /// @param what  "the start"
   [[nodiscard]] std::string describe(const Configuration& q, const std::string& what);

@@ -27,7 +27,7 @@ constexpr std::size_t kPlaces = 8;       // Places that are enough, of all poses
 constexpr std::size_t kRounds = 300;     // Most tries of each pose.
 constexpr std::size_t kIdleRounds = 50;  // Most tries of each pose in a row that bring no place.
 
-/// A pose that a link is to have, and the places of the joints that were found.
+/// A pose that a link is to have, and the configurations of the joints that were found.
 struct WantedPose {
   LinkPoseGoal goal;
   std::string name;  ///< For messages: `the pose of link "hand"`.
@@ -143,19 +143,20 @@ class LinkGoalSearch {
                            [&](WantedPose* pose) { return problem_of(*pose, /*is_brief=*/true); });
   }
 
-  /// Explains in a sentence that a pose has no free place of the joints.
+  /// Explains in a sentence that a pose has no free configuration of the joints.
   std::string problem_of(WantedPose& pose, bool is_brief) {
     if (pose.blocked) {
       const std::string what = pose.name + " (all " + std::to_string(pose.count_blocked) +
-                               " places of the joints that were found)";
+                               " configurations of the joints that were found)";
       return is_brief ? goal_check_->describe_briefly(*pose.blocked, what)
                       : goal_check_->describe(*pose.blocked, what);
     }
     const std::vector<ReachedPose> nearest = pose.search->places();
     if (nearest.empty()) {
-      return pose.name + ": no time was left to look for places of the joints";
+      return pose.name + ": no time was left to look for configurations of the joints";
     }
-    return pose.name + ": no place of the joints was found at which it is there; the nearest is " +
+    return pose.name +
+           ": no configuration of the joints was found at which it is there; the nearest is " +
            write_json(nearest.front().position_error) + " m and " +
            write_json(nearest.front().rotation_error) + " rad off";
   }
