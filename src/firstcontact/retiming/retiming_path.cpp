@@ -83,8 +83,7 @@ RetimingHold hold_of(const NamedContactPair& pair, const RetimingPath& input,
 ///
 /// Such an edge has no length: a plan has one where a pair opens on all of its other edges.
 std::vector<std::vector<double>> without_repeats(std::vector<std::vector<double>> waypoints) {
-  const auto repeats = std::ranges::unique(waypoints);
-  waypoints.erase(repeats.begin(), repeats.end());
+  waypoints.erase(std::unique(waypoints.begin(), waypoints.end()), waypoints.end());
   return waypoints;
 }
 
