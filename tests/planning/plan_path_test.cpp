@@ -190,13 +190,15 @@ TEST(PlanPath, TakesWhicheverGoalItReaches) {
   EXPECT_NE(result.warnings[0].find("\"wall\""), std::string::npos);
 }
 
-// The nearest free configuration of a goal takes longer than thousands of checks: only a refusal has it.
+// The nearest free configuration of a goal takes longer than thousands of checks: only a refusal
+// has it.
 TEST(PlanPath, NamesBlockedGoalsBrieflyBesideAFreeOne) {
   const PlanScene scene = with_gantry(thin_wall(0.0));
   std::vector<Configuration> goals(20, Configuration{0.0, 0.0, 0.0});
   EXPECT_NE(message_of(scene, kBefore, goals).find("no goal is free: goal 0 is not free: "),
             std::string::npos);
-  EXPECT_NE(message_of(scene, kBefore, goals).find("the nearest free configuration"), std::string::npos);
+  EXPECT_NE(message_of(scene, kBefore, goals).find("the nearest free configuration"),
+            std::string::npos);
   goals.push_back(kBehind);
   const PlanResult result = plan_path(scene, kBefore, goals);
   ASSERT_EQ(result.warnings.size(), 20u);

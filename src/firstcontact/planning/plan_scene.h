@@ -35,8 +35,8 @@ struct ScenePlan {
 /// A robot begins where its trajectory does. Other robots rest at their trajectories of one point.
 /// A body that a robot holds keeps its place in the link that it has at the start.
 ///
-/// Goals that are poses of links become configurations of the joints, by inverse kinematics. They share the
-/// time of the question with the search: `options.spent` is what they took.
+/// Goals that are poses of links become configurations of the joints, by inverse kinematics. They
+/// share the time of the question with the search: `options.spent` is what they took.
 ///
 /// @param stop  ends inverse kinematics; `goals` may be empty then
 /// @throws std::invalid_argument  names what cannot be planned: a joint or a goal that is none, a
