@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -117,14 +118,27 @@ struct Rocking {
   double gain = 0.0;  // [J]    Most energy above that at the start.
 };
 
-/// A plank of 1 kg rocks on a fixed body of radius 0.3 m whose axis is y.
+/// What rocks: a body of 1 kg whose long axis is x once it has turned about y.
+struct Rocker {
+  std::string shape;
+  double turned = 0.0;     // [rad]     About y.
+  double inertia = 0.0;    // [kg m^2]  About y.
+  std::string about_axes;  // Keys of its dynamics that follow the mass.
+};
+
+const Rocker kPlank{box("[1, 0.4, 0.08]"), 0.0, (1.0 + 0.08 * 0.08) / 12.0, ""};
+const Rocker kRod{R"({"capsule": {"radius": 0.04, "length": 1}})", 0.5 * std::numbers::pi, 0.08,
+                  R"(, "inertia": [[0.08, 0, 0], [0, 0.08, 0], [0, 0, 0.0008]])"};
+
+/// A plank or a rod, 0.04 m from its axis to its side, rocks on a fixed body of radius 0.3 m whose
+/// axis is y.
 ///
 /// Law, by the contact's way R phi over the plank: (R^2 phi^2 + h^2 + I) phi'' + R^2 phi phi'^2 +
 /// g (R phi cos phi - h sin phi) = 0, with the radius R of the contact and its height h below the
 /// plank's centre.
 ///
 /// @param sag  [m]  by how much the base's mesh stands out
-Rocking rocking_plank(const std::string& base, double sag, double step) {
+Rocking rocking(const Rocker& rocker, const std::string& base, double sag, double step) {
   constexpr double kRadius = 0.3;
   constexpr double kHalf = 0.04;
   constexpr double kLean = 0.3;
@@ -133,23 +147,23 @@ Rocking rocking_plank(const std::string& base, double sag, double step) {
                        (R + kHalf) * std::cos(kLean) + R * kLean * std::sin(kLean));
   const std::string below = R"({"name": "base", "shape": )" + base +
                             R"(, "pose": {"rotation_vector": [1.5707963267948966, 0, 0]}})";
-  Simulator s = simulator(
-      below + ", " +
-          leaning("plank", box("[1, 0.4, 0.08]"), place, kLean, R"(, "dynamics": {"mass": 1})"),
-      settings(step, 1.0, kGap));
+  Simulator s = simulator(below + ", " +
+                              leaning("rocker", rocker.shape, place, rocker.turned + kLean,
+                                      R"(, "dynamics": {"mass": 1)" + rocker.about_axes + "}"),
+                          settings(step, 1.0, kGap));
   const auto steps = run_for(s, 1.0, step);
   if (step == 0.01) {
     EXPECT_EQ(verify(s.header(), steps).verdict, ProofVerdict::proven) << base;
   }
-  const double inertia = (1.0 + 0.08 * 0.08) / 12.0;
   const double r = kRadius + 0.5 * kGap;
   const double h = kHalf + 0.5 * kGap;
   const auto right = integrated<2>({kLean, 0.0}, 1.0, [&](const auto& y) {
     const double pull = kGravity * (r * y[0] * std::cos(y[0]) - h * std::sin(y[0]));
-    return std::array<double, 2>{
-        y[1], -(r * r * y[0] * y[1] * y[1] + pull) / (r * r * y[0] * y[0] + h * h + inertia)};
+    return std::array<double, 2>{y[1], -(r * r * y[0] * y[1] * y[1] + pull) /
+                                           (r * r * y[0] * y[0] + h * h + rocker.inertia)};
   });
-  const Vector3d x = steps.back().bodies[0].X_WB.rotation * Vector3d::UnitX();
+  const Vector3d along(std::cos(rocker.turned), 0.0, std::sin(rocker.turned));
+  const Vector3d x = steps.back().bodies[0].X_WB.rotation * along;
   Rocking made{.off = std::abs(std::atan2(-x.z(), x.x()) - right[0])};
   for (const RunStep& at : steps) {
     made.gain = std::max(made.gain, energy(at) - energy(steps[0]));
@@ -164,13 +178,25 @@ TEST(RollingLaws, APlankRocksOnARoundBody) {
        {std::pair<std::string, double>{R"({"sphere": {"radius": 0.3}})", 0.0},
         {R"({"capsule": {"radius": 0.3, "length": 0.6}})", 0.0},
         {R"({"cylinder": {"radius": 0.3, "length": 0.6}})", 3e-5}}) {
-    const Rocking at_20_ms = rocking_plank(base, sag, 0.02);
-    const Rocking at_10_ms = rocking_plank(base, sag, 0.01);
-    const Rocking at_5_ms = rocking_plank(base, sag, 0.005);
+    const Rocking at_20_ms = rocking(kPlank, base, sag, 0.02);
+    const Rocking at_10_ms = rocking(kPlank, base, sag, 0.01);
+    const Rocking at_5_ms = rocking(kPlank, base, sag, 0.005);
     EXPECT_LE(at_20_ms.off, 1.5e-3) << base;
     EXPECT_LE(at_10_ms.off, 0.35 * at_20_ms.off) << base;
     EXPECT_LE(at_5_ms.off, 1.5e-4) << base;
     EXPECT_LE(std::max({at_20_ms.gain, at_10_ms.gain, at_5_ms.gain}), 1e-4) << base;
+  }
+}
+
+// Two cylinders that cross: the contact goes along both axes.
+TEST(RollingLaws, ARodRocksAcrossARoundBody) {
+  for (const std::string base :
+       {R"({"sphere": {"radius": 0.3}})", R"({"capsule": {"radius": 0.3, "length": 0.6}})"}) {
+    const Rocking at_20_ms = rocking(kRod, base, 0.0, 0.02);
+    const Rocking at_10_ms = rocking(kRod, base, 0.0, 0.01);
+    EXPECT_LE(at_20_ms.off, 1.5e-3) << base;
+    EXPECT_LE(at_10_ms.off, 0.35 * at_20_ms.off) << base;
+    EXPECT_LE(std::max(at_20_ms.gain, at_10_ms.gain), 1e-4) << base;
   }
 }
 
