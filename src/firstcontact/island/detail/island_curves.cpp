@@ -72,7 +72,7 @@ std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
 /// Turns contacts on curved surfaces by the velocities of the last solution in place of those of
 /// now. Returns whether that changes any of them.
 bool IslandPlanner::follow_curves() {
-  const double slack = kSlackOfMean * state_.model.distances.least / span_;
+  const double slack = least_speed();
   const std::vector<ContactBody>& at_end = last_->velocities.bodies;
   bool is_changed = false;
   for (std::size_t k = 0; k < first_ahead_; ++k) {

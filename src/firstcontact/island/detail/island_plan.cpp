@@ -401,10 +401,14 @@ bool IslandPlanner::acts(std::size_t k) const {
   return k < first_ahead_ && !acting_[k].is_replaced;
 }
 
+/// [m/s]  Slower relative motions of a contact are too short in a plan to matter.
+double IslandPlanner::least_speed() const {
+  return kSlackOfMean * state_.model.distances.least / span_;
+}
+
 /// [m/s]  The most by which the mean of a normal velocity may be below its least one.
 double IslandPlanner::slack_of_mean() const {
-  return 2.0 * projection_options(state_, problem_).tolerance +
-         kSlackOfMean * state_.model.distances.least / span_;
+  return 2.0 * projection_options(state_, problem_).tolerance + least_speed();
 }
 
 /// [m/s]  The least mean normal velocity of a contact.

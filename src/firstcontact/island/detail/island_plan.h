@@ -197,6 +197,7 @@ class IslandPlanner {
   [[nodiscard]] std::array<ContactSide, 2> mean_sides(std::size_t k,
                                                       const std::vector<ContactBody>& at_end) const;
   [[nodiscard]] bool follow_curves();
+  [[nodiscard]] double least_speed() const;
   [[nodiscard]] double slip_of_rolling(std::size_t k) const;
   [[nodiscard]] Eigen::Vector2d slip_before(std::size_t k) const;
   [[nodiscard]] bool follow_slides();

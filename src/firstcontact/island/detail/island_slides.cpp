@@ -34,7 +34,7 @@ double IslandPlanner::slip_of_rolling(std::size_t k) const {
 ///
 /// @param first,end  the contacts of the pair
 bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
-  const double slow = kSlackOfMean * state_.model.distances.least / span_;
+  const double slow = least_speed();
   Vector3d friction = Vector3d::Zero();
   double most = 0.0;
   bool slides = false;
@@ -63,7 +63,7 @@ Vector2d IslandPlanner::slip_before(std::size_t k) const {
 /// Friction against the slip at the end alone is of first order where the slip turns. Returns
 /// whether that changes any of them.
 bool IslandPlanner::follow_slides() {
-  const double slow = kSlackOfMean * state_.model.distances.least / span_;
+  const double slow = least_speed();
   bool is_changed = false;
   for (std::size_t k = 0; k < first_ahead_; ++k) {
     ActingContact& acting = acting_[k];
