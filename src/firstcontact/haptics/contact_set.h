@@ -66,8 +66,9 @@ struct HapticContactSet {
   /// [rad]  Angle by which a motion that the listed contacts permit may violate any other contact,
   /// at most. 0 where all are listed.
   double angle = 0.0;
-  std::array<Pose, kMostTools> X_WB = {};             ///< Poses of the god-objects.
-  std::array<Eigen::Vector3d, kMostTools> p_WC = {};  ///< [m]  Centres of the god-objects.
+  std::array<Pose, kMostTools> X_WB = {};  ///< Poses of the god-objects.
+  /// [m]  Centres of the god-objects.
+  std::array<Eigen::Vector3d, kMostTools> p_WC = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   std::array<HapticContact, kMostHapticContacts> contacts = {};
   std::uint32_t joint_count = 0;  ///< Number of joints of all tools, in their order.
   std::uint32_t link_count = 0;

@@ -16,7 +16,8 @@ namespace firstcontact::detail {
 
 /// The places of the tools, and the weights of their turns.
 struct ToolFrames {
-  std::array<Eigen::Vector3d, kMostTools> p_WC = {};  ///< [m]  Centres of the tools.
+  /// [m]  Centres of the tools.
+  std::array<Eigen::Vector3d, kMostTools> p_WC = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   /// [m]  A turn by an angle counts as much as a displacement of this length times the angle.
   std::array<double, kMostTools> lengths = {};
   /// [-]  Factor of all coordinates of a tool: the root of its stiffness by that of the first.

@@ -30,7 +30,8 @@ struct ContactSide {
 
 /// A contact after both bodies moved.
 struct MovedContact {
-  std::array<Eigen::Vector3d, 2> arms = {};  ///< [m]  Vectors from the moved centres of mass.
+  /// [m]  Vectors from the moved centres of mass.
+  std::array<Eigen::Vector3d, 2> arms = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< Rows: normal, two tangents.
   double opened = 0.0;                                  ///< [m]  Growth of its gap.
 
