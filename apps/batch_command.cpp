@@ -254,10 +254,10 @@ Shard parse_shard(const std::string& text) {
 }
 
 constexpr const char* kFooter = R"(
-Results are written in the order of the jobs, one a line; a job that cannot be answered gets an
-error as its result. However this ends, --resume goes on with the next job: nothing is lost,
-nothing is done twice. RESULTS.batch, beside the results, records their jobs and options; others
-are refused.
+Each line of RESULTS answers one job, in the order of the jobs. The result of a job that cannot be
+answered is an error. After an interruption, --resume continues with the next job. No result is
+lost and no job runs twice. The file RESULTS.batch records the jobs and options; --resume refuses
+different ones.
 
 Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided or interrupted. The
 worst of all results counts, in the order 2, 3, 1, 0.)";
@@ -266,21 +266,22 @@ worst of all results counts, in the order 2, 3, 1, 0.)";
 
 void add_batch_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
-      "batch", "First contact in many scenes, by all processors; can go on later");
+      "batch",
+      "First contact in many scenes, on all processors; an interrupted batch can be resumed");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("JOBS", arguments->jobs, "A file with one scene in each line (JSON Lines)")
       ->required();
-  add_file(*command, "-o,--output", arguments->results, "Where the results go, one in each line")
+  add_file(*command, "-o,--output", arguments->results, "File for the results, one in each line")
       ->required()
       ->type_name("RESULTS");
   add_file(*command, "--html", arguments->page,
            "Makes a page that lists the results and plays each");
-  command->add_flag("--resume", arguments->resume, "Goes on with the results that are there");
+  command->add_flag("--resume", arguments->resume, "Continues after the last result in RESULTS");
   add_threads(*command, arguments->threads, "Each result");
   command
       ->add_option_function<std::string>(
           "--shard", [arguments](const std::string& text) { arguments->shard = parse_shard(text); },
-          "Only the lines i, i + N, i + 2 N, ... of the jobs, the first line being 1")
+          "Takes only the lines i, i + N, i + 2 N, ... of the jobs; the first line is 1")
       ->type_name("i/N");
   add_question_options(*command, arguments->question);
   command->footer(kFooter);

@@ -275,7 +275,7 @@ Is a trajectory free?  firstcontact check --robot R.urdf --srdf R.srdf --traject
 
 Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided. The worst of
 several scenes counts, in the order 2, 3, 1, 0.
-Ctrl-C ends with what is proven so far; again, at once.)";
+Ctrl-C ends with what is proven so far; a second Ctrl-C ends at once.)";
 
 }  // namespace
 
@@ -285,13 +285,13 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   auto arguments = std::make_shared<Arguments>();
   Question& question = arguments->question;
   command->add_option("SCENE", arguments->files,
-                      ".json: one scene. .jsonl: one scene in each line; the answers are one line "
-                      "each, in order, and a bad line gets an error as its answer. -: either, from "
-                      "standard input");
+                      ".json: one scene. .jsonl: one scene in each line. Then each answer is one "
+                      "line, in the same order, and the answer to a bad line is an error. -: "
+                      "either, from standard input");
   add_file(*command, "-o,--output", arguments->output, "Writes the result as JSON to a file");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_flag("--explain", arguments->explain,
-                    "Also what became of each file: what was taken, what was left out and why");
+                    "Adds what was read from each file, what was left out, and why");
   add_file(*command, "--svg", arguments->plot, "Draws the gap over time (one scene)");
   add_file(*command, "--gap", arguments->gap,
            "Writes the gap over time and its proven lower bound as a table (one scene)")
@@ -299,7 +299,7 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--html", arguments->page, "Makes a page that plays the answer (one scene)");
   add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
-             "[1/s] Also the answer of sampling at this rate");
+             "[1/s] Adds the answer that sampling at this rate would give");
   add_threads(*command, question.threads, "The answer");
   command->add_flag("--strict", question.strict, "A robot beyond its joint limits is an error");
   add_robot_options(*command, arguments->robot);

@@ -42,7 +42,8 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& 
 CLI::Option* add_threads(CLI::App& command, int& threads, const std::string& same) {
   return command
       .add_option("--threads", threads,
-                  "At most so many; 0, the default, for one on each core. " + same + " is the same")
+                  "Number of threads; 0, the default, for one on each core. " + same +
+                      " does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
 }

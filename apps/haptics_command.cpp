@@ -439,60 +439,58 @@ constexpr const char* kFooter = R"(
 SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices, one --device each.
 DEVICE is one of these (docs/haptic_devices.md):
   FILE.csv                    a recording
-  simulated                   a hand that knows nothing of the scene, on a device without weight
+  simulated                   a hand that moves at random, on a device without weight
   mouse[=PORT]                the mouse, on a page that this command serves to this machine only
   spacemouse[=SOCKET]         a SpaceMouse through spacenavd
   haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
   plugin=FILE[,SETTINGS]      another device, by a shared library
 The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
 hardware. In virtual time the same command gives the same files.
-RUN is the way of the tools. `firstcontact verify RUN` proves it as written, with other code:
-nothing passed through anything, between ticks too. `firstcontact view RUN` plays it.
+RUN, the output file, holds the motion of the tools. `firstcontact verify RUN` proves with other
+code that no tool passed through a body, between ticks too. `firstcontact view RUN` plays it.
 
-Exit status: 0 done; 2 bad input; 3 stopped early, or bodies that move had to wait for a tool.)";
+Exit status: 0 done; 2 bad input; 3 stopped early, or moving bodies had to wait for a tool.)";
 
 }  // namespace
 
 void add_haptics_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
-      "haptics", "Moves tools by haptic devices; they are felt, and pass through nothing");
+      "haptics", "Moves tools by haptic devices, with forces; no tool passes through a body");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
       ->required();
   command
       ->add_option(
           "--device", arguments->devices,
-          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; one for a tool")
+          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; one per tool")
       ->required()
       ->expected(1)
       ->type_name("DEVICE")
       ->take_all();
   CLI::Option* run = add_file(*command, "-o,--output", arguments->run,
-                              "Records the way of the tools: JSON Lines, a line a cycle");
+                              "Records the motion of the tools: JSON Lines, one line per cycle");
   add_file(*command, "--ticks", arguments->ticks,
            "Writes each tick: device, target, force, faults (.csv)");
   add_file(*command, "--cycles", arguments->cycles, "Writes each cycle of the contact loop (.csv)");
   add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "Seconds. By default 0.1 more than the longest recording, as its last sample is held; "
-             "else 60 with a device that a hand moves, or 10");
+             "[s] Time to run. Default: 0.1 more than the longest recording, as its last sample is "
+             "held; 60 with a device in a user's hand; 10 with a simulated one");
   add_number(*command, "--latency", arguments->latency, Range::not_negative,
-             "Seconds that a cycle of the contact loop takes in virtual time");
-  add_number(
-      *command, "--radius", arguments->radius, Range::positive,
-      "Metres from its start to which the simulated hand leads the tool; by default twice its "
-      "reach, from its middle to its farthest point");
-  add_number(
-      *command, "--speed", arguments->speed, Range::positive,
-      "Metres per second at most of the simulated hand, in the mean of a stroke; by default 1");
-  add_count(*command, "--seed", arguments->seed, "The random numbers of the simulated hand");
+             "[s] Time of one cycle of the contact loop, in virtual time");
+  add_number(*command, "--radius", arguments->radius, Range::positive,
+             "[m] Reach of the simulated hand from the start. Default: twice the distance from the "
+             "middle of the tool to its farthest point");
+  add_number(*command, "--speed", arguments->speed, Range::positive,
+             "[m/s] Greatest mean speed of a stroke of the simulated hand; 1 by default");
+  add_count(*command, "--seed", arguments->seed, "Seed of the motion of the simulated hand");
   CLI::Option* wall =
       command->add_flag("--wall", arguments->wall,
                         "Runs both loops as threads on the wall clock, not in virtual time");
   add_file(*command, "--timing", arguments->timing, "Writes histograms of all ticks (.csv)")
       ->needs(wall);
-  command->add_flag("--force", arguments->force, "Replaces what the output file holds")->needs(run);
+  command->add_flag("--force", arguments->force, "Replaces the output file")->needs(run);
   command->footer(kFooter);
   command->callback([arguments, &status] { status = HapticsRun(*arguments).run(); });
 }

@@ -211,7 +211,7 @@ void add_info_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("info",
                          "Counts, defects, bounds and masses of meshes, clouds and robots, and "
-                         "what became of their files");
+                         "the parts of their files that are not used");
   auto arguments = std::make_shared<InfoArguments>();
   command
       ->add_option("FILE", arguments->files,
@@ -219,19 +219,20 @@ void add_info_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--package-root", arguments->package_roots,
-                   "Folder that holds packages which a robot names as package://; repeatable")
+                   "Folder of the packages that a robot names as package://; repeatable")
       ->type_name("FOLDER")
       ->allow_extra_args(false);
   command->add_flag("--visual-where-missing", arguments->visual_where_missing,
-                    "Takes links of robots without collision geometry as they look");
+                    "Uses the visual geometry of links that have no collision geometry");
   command->add_flag("--json", arguments->json,
                     "Prints JSON in place of text for people, one line for each file");
   command->add_flag("--lenient", arguments->lenient,
                     "Unknown names in files are warnings, not errors");
   command
-      ->add_flag("--always-in-contact", arguments->in_contact,
-                 "Prints as SRDF the pairs of links that touch where every coordinate is 0, or its "
-                 "limit next to it, and nothing else. Check whether each may touch")
+      ->add_flag(
+          "--always-in-contact", arguments->in_contact,
+          "Prints only the pairs of links that touch where each joint is at 0 or at its limit "
+          "next to 0, as SRDF. Decide for each pair whether it may touch")
       ->excludes("--json");
   command->callback([arguments] {
     for (const std::string& file : arguments->files) {

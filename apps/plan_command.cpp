@@ -328,9 +328,9 @@ constexpr const char* kPlanFooter = R"(
 Robot, request and environment as MoveIt has them:
     firstcontact plan --robot R.urdf --srdf R.srdf --environment S.yaml --request Q.yaml -o P.json
 
-Exit status: 0 a proven path, 1 none was found in the time, 2 bad input (a start or goal that is not
-free among it), 3 a path that is only approximate (with --approximate).
-Ctrl-C ends with the best path so far; again, at once.)";
+Exit status: 0 a proven path, 1 no path was found in the time, 2 bad input (also where the start or
+the goal is not free), 3 the path is only approximate (with --approximate).
+Ctrl-C ends with the best path so far; a second Ctrl-C ends at once.)";
 
 }  // namespace
 
@@ -339,9 +339,9 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
       app.add_subcommand("plan", "A path of a robot or body to a goal, proven edge by edge");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene,
-                      ".json with \"plan\": what moves, from where, to where");
+                      ".json with \"plan\": the moving robot or body, its start and its goal");
   add_file(*command, "-o,--output", arguments->output,
-           "Writes the path, with all that it takes to prove it again, to a file");
+           "Writes the path to a file, with all that `verify` needs");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the path");
   command->add_flag("--json", arguments->json, "Prints the path as JSON in place of text");
   command
@@ -351,25 +351,25 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
   command
       ->add_option(
           "--contacts", arguments->contacts,
-          "Motion in contact where an edge is blocked: none, the default; sample, slide or "
-          "both, for narrow passages (docs/planning.md)")
+          "Use of contacts where an edge is blocked: none, the default; sample, slide or both, "
+          "for narrow passages (docs/planning.md)")
       ->check(CLI::IsMember(
           std::vector<std::string>(kContactUseWords.begin(), kContactUseWords.end())));
   command
       ->add_option("--seed", arguments->seed,
                    "Seed of the random numbers; 1 by default. The same seed finds the same path")
       ->check(CLI::Range(std::uint64_t{0}, kLargestSeed));
-  add_number(*command, "--time", arguments->time, Range::positive, "[s] At most; 10 by default");
+  add_number(*command, "--time", arguments->time, Range::positive, "[s] Time limit; 10 by default");
   add_number(*command, "--margin", arguments->margin, Range::not_negative,
-             "[m] All pairs stay farther apart than this; in place of the scene's");
+             "[m] All pairs stay farther apart than this; replaces the scene's");
   add_number(*command, "--tolerance", arguments->tolerance, Range::positive,
-             "[m] What is nearer than margin + tolerance may count as blocked");
+             "[m] A pair that is nearer than margin + tolerance may count as blocked");
   command
       ->add_option("--shortcuts", arguments->shortcuts,
-                   "Tries to shorten the path; 0 leaves it as it was found")
+                   "Number of attempts to shorten the path; 0 keeps the path as found")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}));
   command->add_flag("--approximate", arguments->approximate,
-                    "Without a path, one that ends as near to a goal as was reached");
+                    "Where no path is found: gives one that ends as near to a goal as was reached");
   add_threads(*command, arguments->threads, "The path");
   command->add_flag("--lenient", arguments->lenient,
                     "Unknown names in files are warnings, not errors");

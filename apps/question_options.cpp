@@ -47,12 +47,11 @@ std::string contacts_text(const ContactState& contacts) {
 
 void add_question_options(CLI::App& command, Question& question) {
   add_number(command, "--margin", question.margin, Range::not_negative,
-             "[m] Closer than this counts as contact; in place of the scene's");
-  add_number(
-      command, "--tolerance", question.tolerance, Range::positive,
-      "[m] A reported contact is no farther than margin + tolerance; in place of the scene's");
+             "[m] Bodies closer than this are in contact; replaces the scene's margin");
+  add_number(command, "--tolerance", question.tolerance, Range::positive,
+             "[m] A reported contact is no farther than margin + tolerance; replaces the scene's");
   add_number(command, "--deadline", question.deadline, Range::positive,
-             "[s] For each scene; then its answer is undecided");
+             "[s] Time limit of each scene; an answer that takes longer is undecided");
   command.add_flag("--lenient", question.lenient,
                    "Unknown names in files are warnings, not errors, even where they "
                    "could hold geometry");
@@ -60,15 +59,16 @@ void add_question_options(CLI::App& command, Question& question) {
       .add_option_function<std::string>(
           "--contacts",
           [&question](const std::string& text) { question.contacts = parse_contacts(text); },
-          fmt::format("Which feature pairs at the contact are listed of each two bodies: none, the "
-                      "first, all, or so many at most, the nearest and some of every region; in "
-                      "place of the scene's ({})",
-                      ContactState::kUsual))
+          fmt::format(
+              "Number of feature pairs that are listed for two bodies in contact: none, the "
+              "first, all, or at most N, the nearest ones and some of each region; "
+              "replaces the scene's ({})",
+              ContactState::kUsual))
       ->type_name("none|first|all|N");
-  command.add_flag("--closest", question.closest, "Also the closest approach over the whole step");
-  command.add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
+  command.add_flag("--closest", question.closest, "Adds the closest approach over the whole step");
+  command.add_flag("--all-pairs", question.all_pairs, "Adds the answer for each pair of bodies");
   command.add_flag("--all-contacts-in-time", question.all_contacts_in_time,
-                   "Also from when to when each pair is in contact");
+                   "Adds the intervals of time in which each pair is in contact");
 }
 
 }  // namespace firstcontact::app

@@ -336,11 +336,12 @@ void require_one_input(const Arguments& arguments) {
 constexpr const char* kFooter = R"(
   firstcontact retime path.json --limits joint_limits.yaml --mode blend -o trajectory.yaml
 
-The file is read back, and what its controller interpolates is proven: cubics between points with
-velocities, quintics with accelerations too. A motion that is not proven is not written.
+The file is read back, and the motion that a controller interpolates from it is proven. That is a
+cubic between points with velocities, and a quintic where accelerations are given too. A motion that
+is not proven is not written.
 
 Exit status: 0 proven and written, 1 no proven retiming, 2 bad input, 3 undecided.
-Ctrl-C ends with status 3; again, at once.)";
+Ctrl-C ends with status 3; a second Ctrl-C ends at once.)";
 
 }  // namespace
 
@@ -349,30 +350,31 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
       "retime", "Times a path within joint limits, proven as a controller executes it");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("PATH", arguments->path,
-                      "Path that \"firstcontact plan\" wrote; or a scene (.json), whose robot has "
+                      "Path that \"firstcontact plan\" wrote; or a scene (.json) whose robot has "
                       "waypoints as its trajectory");
   add_file(*command, "-o,--output", arguments->output,
            "The trajectory: .yaml or .json (trajectory_msgs/JointTrajectory), or .csv")
       ->required();
   add_file(*command, "--html", arguments->page, "Makes a page that plays the trajectory");
   command
-      ->add_option("--mode", arguments->mode,
-                   "stop: rest at every waypoint, exactly on the path. blend: passes waypoints on "
-                   "blends that are proven free. time_optimal: so too, in the least time")
+      ->add_option(
+          "--mode", arguments->mode,
+          "stop: stays on the path and rests at each waypoint. blend: rounds the corners by "
+          "blends that are proven free. time_optimal: blends, in the least time")
       ->check(CLI::IsMember(
           std::vector<std::string>(kRetimingModeWords.begin(), kRetimingModeWords.end())));
   add_file(
       *command, "--limits", arguments->limits,
-      "joint_limits.yaml of MoveIt: velocities, accelerations, jerks. Joints are ROBOT/NAME for "
-      "a path of several robots");
+      "joint_limits.yaml of MoveIt: velocities, accelerations, jerks. A path of several robots "
+      "names its joints ROBOT/NAME");
   add_number(*command, "--max-velocity", arguments->others.velocity, Range::positive,
-             "[rad/s or m/s] Of joints for which neither --limits nor the URDF has a limit");
+             "[rad/s or m/s] For joints that have no limit in --limits and in the URDF");
   add_number(*command, "--max-acceleration", arguments->others.acceleration, Range::positive,
-             "[rad/s^2 or m/s^2] Of joints for which --limits has none");
+             "[rad/s^2 or m/s^2] For joints that have no limit in --limits");
   add_number(*command, "--max-jerk", arguments->others.jerk, Range::positive,
-             "[rad/s^3 or m/s^3] Of joints for which --limits has none; without it no limit");
+             "[rad/s^3 or m/s^3] For joints that have no limit in --limits; by default unlimited");
   add_number(*command, "--tolerance", arguments->tolerance, Range::positive,
-             "[m] In place of the scene's");
+             "[m] Replaces the scene's");
   command->add_option("--which", arguments->which, "The robot, in a scene with several")
       ->type_name("NAME");
   command->add_flag("--lenient", arguments->lenient, "Unknown names in files are warnings");

@@ -38,21 +38,21 @@ RobotTexts texts_for(RobotUse use) {
       break;
     case RobotUse::plan:
       return {"URDF: plans for this robot in place of a SCENE", "",
-              "MoveIt request (.yaml): from its start to its goal, which may be the pose of a link",
-              "With --goal, from there: state of the SRDF or JOINT=POSITION; repeatable"};
+              "MoveIt request (.yaml): its start and goal; the goal may be the pose of a link",
+              "Start of the path: state of the SRDF or JOINT=POSITION; repeatable; with --goal"};
     case RobotUse::retime:
       return {"URDF: times the motion of this robot in place of a PATH",
-              "Its positions are the path, its times are left out: .csv (header: time and joint "
+              "Its positions are the path, its times are not used: .csv (header: time and joint "
               "names), .json, or .yaml as ROS prints a JointTrajectory",
-              "MoveIt request (.yaml): the path is straight from its start to its goal",
-              "With --goal, the path is straight from there: state of the SRDF or JOINT=POSITION; "
-              "repeatable"};
+              "MoveIt request (.yaml): the path is the straight line from its start to its goal",
+              "Start of a straight path: state of the SRDF or JOINT=POSITION; repeatable; with "
+              "--goal"};
   }
   return {"URDF: checks this robot in place of a SCENE",
           ".csv (header: time and joint names), .json, or .yaml as ROS prints a JointTrajectory",
-          "MoveIt request (.yaml): straight from its start to its goal",
-          "With --goal, straight from there as fast as the joints may: state of the SRDF or "
-          "JOINT=POSITION; repeatable"};
+          "MoveIt request (.yaml): the motion is the straight line from its start to its goal",
+          "Start of a straight motion at the joints' greatest speeds: state of the SRDF or "
+          "JOINT=POSITION; repeatable; with --goal"};
 }
 
 }  // namespace
@@ -78,22 +78,22 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments, RobotUse us
   list("--start", arguments.start, "STATE", texts.start);
   list("--goal", arguments.goal, "STATE", "As --start");
   list("--state", arguments.state, "STATE",
-       "Where joints rest that the motion does not name: as --start; 0 by default");
+       "Positions of joints that the motion does not name: as --start; 0 by default");
   command
       .add_option("--turning", arguments.turning,
-                  "Continuous joints: short, by at most half a turn, or long, as the numbers go. "
-                  "Short is the default to a goal, as in MoveIt, long that of --trajectory")
+                  "Motion of continuous joints. short: by at most half a turn. long: through all "
+                  "numbers between. Default: short to a goal, as in MoveIt; long with --trajectory")
       ->check(CLI::IsMember(std::vector<std::string>(kTurningWords.begin(), kTurningWords.end())))
       ->group(of_motion);
   command
       .add_flag(
           "--unwrap", arguments.unwrap,
-          "With --trajectory: a recording whose angles wrap; takes its jumps of whole turns out")
+          "With --trajectory: removes jumps of whole turns from a recording whose angles wrap")
       ->group(of_motion);
   list("--environment", arguments.environment, "FILE",
        "Mesh, MoveIt planning scene (.yaml), or scene (.json) without robots; repeatable");
   list("--package-root", arguments.package_roots, "FOLDER",
-       "Holds packages that the robot names as package://; repeatable");
+       "Folder of the packages that the robot names as package://; repeatable");
   add_number(command, "--environment-scale", arguments.environment_scale, Range::positive,
              "Multiplies coordinates of environment meshes: 0.001 where they are in millimetres")
       ->group("Robot");
@@ -101,15 +101,15 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments, RobotUse us
              "[m] Thickens every link")
       ->group("Robot");
   add_number(command, "--tracking-error", arguments.tracking_error, Range::not_negative,
-             "[rad or m] Every joint may be so far off at any time")
+             "[rad or m] Greatest difference between each joint and its motion, at any time")
       ->group("Robot");
   command
       .add_flag("--visual", arguments.visual,
-                "Takes links as they look, not their collision geometry")
+                "Uses the visual geometry of links in place of their collision geometry")
       ->group("Robot");
   command
       .add_flag("--visual-where-missing", arguments.visual_where_missing,
-                "Takes links without collision geometry as they look")
+                "Uses the visual geometry of links that have no collision geometry")
       ->group("Robot")
       ->excludes("--visual");
 }

@@ -337,40 +337,39 @@ class Run {
 
 constexpr const char* kFooter = R"(
 SCENE is a scene with "dynamics" (docs/simulation.md) or a fixture of Rigid IPC.
-RUN grows with every step: killed at any moment, it goes on with --resume, bit for bit. A file that
-holds anything is replaced only with --force. The summary is of the whole run, after --resume too.
-`firstcontact verify RUN` proves the same with other code.
-Held apart are pairs of which one is free. Scripted and resting bodies may pass through each other;
-the answer names such pairs.
+The output file grows by a line with every step. An interrupted run continues with --resume and
+gives the same bits. A file that is not empty is replaced only with --force. The summary is of the
+whole run, after --resume too. `firstcontact verify RUN` proves the run with other code.
+The simulation holds a pair apart where one of its bodies is free. Two scripted or fixed bodies may
+pass through each other; the summary names such pairs.
 
 Exit status: 0 done; 2 bad input; 3 stopped early, a script had to wait, or time was lost. Ctrl-C
-ends after the step that is under way; again, at once.)";
+ends after the current step; a second Ctrl-C ends at once.)";
 
 }  // namespace
 
 void add_simulate_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
-      "simulate",
-      "Moves bodies under forces and contacts; what moves freely never interpenetrates");
+      "simulate", "Moves bodies under forces and contacts; free bodies never interpenetrate");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
       ->required();
   CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
-                                 "Records the run: JSON Lines, a line a step");
+                                 "Records the run: JSON Lines, one line for each step");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_file(*command, "--glb", arguments->animation,
            "Makes an animation for other programs: binary glTF, .glb");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
+             "[s] Time to simulate; replaces the scene's. Scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,
-             "Seconds of a step, in place of the scene's");
+             "[s] Length of a step; replaces the scene's");
   add_threads(*command, arguments->threads, "The run");
   command->add_flag("--lenient", arguments->lenient,
                     "Unknown names in files are warnings, not errors");
   CLI::Option* resume =
-      command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
+      command->add_flag("--resume", arguments->resume, "Continues the run in the output file")
           ->needs(output);
-  command->add_flag("--force", arguments->force, "Replaces what the output file holds")
+  command->add_flag("--force", arguments->force, "Replaces the output file")
       ->needs(output)
       ->excludes(resume);
   command->footer(kFooter);

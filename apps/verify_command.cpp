@@ -90,48 +90,51 @@ ExitStatus verify(const ProofArguments& arguments) {
 }
 
 constexpr const char* kFooter = R"(
-The kind of the file is found by its contents.
+The contents of FILE tell which kind it is.
 
---scene refuses a file that was not made of this scene file as it is now. It compares the digest of
-the scene's text and of the trajectories that this names. In runs of haptics with robots that is the
-digest of all files that it names. Options of the command that made the file are not compared.
+--scene compares the digest of the scene's text and of the trajectories that the scene names. For
+runs of haptics with robots it compares the digest of all files that the scene names. Options of the
+command that made FILE are not compared.
 
-A run: looked at are the pairs that a simulation holds apart: one of the two is free, and no rule
-ignores them. Scripted and resting bodies may pass through each other; the answer names such pairs.
+A run: the proof is about the pairs that a simulation holds apart. One body of such a pair is free,
+and no rule ignores the pair. Two scripted or fixed bodies may pass through each other; the answer
+names such pairs.
 
-A result: each tested pair is proven to stay farther apart than its margin until t. The pair of a
-contact is proven to be within margin and tolerance at t. A tolerance_used has to be one that the
+A result: each tested pair is proven to stay farther apart than its margin until t. The pair in
+contact is proven to be within margin and tolerance at t. A tolerance_used must be one that the
 rounding of doubles explains. Clearances are proven, too. The proof is about the resolved scene in
-the result. It is refused if that was edited, or if a mesh or robot file has changed. Not proven
-again are contacts (bodies, features, points, counts), intervals of contact, closest approaches, and
-the counts of pairs that are not tested.
+the result. `verify` refuses a result whose scene was edited, or whose mesh or robot files have
+changed. These are not proven again: contacts (bodies, features, points, counts), intervals of
+contact, closest approaches, and the counts of pairs that are not tested.
 
-A path: every edge is proven to keep the margin and the extra clearance. A path that ends before a
-goal is called approximate; its distance to the goal is measured again. The path is refused if a
-mesh or robot file has changed. Costs and statistics are not proven again.
+A path: each edge is proven to keep the margin and the extra clearance. A path that ends before a
+goal is called approximate; its distance to the goal is measured again. `verify` refuses a path
+whose mesh or robot files have changed. Costs and statistics are not proven again.
 
-Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that bodies
-interpenetrate or come closer than the file claims, or that those of a contact are apart. A file that
-contradicts itself is bad input. Ctrl-C ends with status 3; again, at once.)";
+Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted: bodies interpenetrate or come
+closer than FILE claims, or the bodies of a contact are apart. A FILE that contradicts itself is bad
+input. Ctrl-C ends with status 3; a second Ctrl-C ends at once.)";
 
 }  // namespace
 
 void add_verify_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand("verify",
-                                         "Proves a second time, by other code, what a simulation, "
-                                         "a check or a plan wrote into a file");
+                                         "Proves the file of a simulation, a check or a plan a "
+                                         "second time, with other code");
   auto arguments = std::make_shared<ProofArguments>();
   command
-      ->add_option("FILE", arguments->file,
-                   "The .jsonl file that a simulation wrote, a result of check, or a path of plan")
+      ->add_option(
+          "FILE", arguments->file,
+          "A run of `simulate` or `haptics` (.jsonl), a result of `check`, or a path of `plan`")
       ->required();
   command
       ->add_option("--scene", arguments->scene,
-                   "The file has to be one of this scene file as it is now")
+                   "Refuses FILE where it was not made from this scene file as it is now")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
-  command->add_flag("--lenient", arguments->lenient,
-                    "Unknown names in files are warnings, as in a run with this option");
+  command->add_flag(
+      "--lenient", arguments->lenient,
+      "Unknown names in files are warnings; needed where FILE was made with --lenient");
   add_threads(*command, arguments->threads, "The answer");
   command->footer(kFooter);
   command->callback([arguments, &status] { status = verify(*arguments); });

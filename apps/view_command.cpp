@@ -177,17 +177,18 @@ void add_view_command(CLI::App& app) {
   command
       ->add_option(
           "RESULT", arguments->result,
-          "File that `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote. Run "
-          "this in the same folder: its mesh files are read again")
+          "File that `check`, `plan`, `simulate` or `haptics` wrote with -o. Run this in the same "
+          "folder, as the mesh files are read again")
       ->required();
   CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
-                                 "Where the page goes; beside the result where this is not given");
+                                 "File for the page; by default beside the result");
   add_file(*command, "--glb", arguments->animation,
-           "In place of the page of a run: an animation for other programs, binary glTF")
+           "Makes an animation for other programs in place of the page of a run: binary glTF")
       ->excludes(output);
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
-  command->add_flag("--lenient", arguments->lenient,
-                    "Unknown names in files are warnings, as in a result with this option");
+  command->add_flag(
+      "--lenient", arguments->lenient,
+      "Unknown names in files are warnings; needed where RESULT was made with --lenient");
   command->callback([arguments] { view(*arguments); });
 }
 

@@ -97,7 +97,7 @@ class CommandLine(ToolTest):
             self.assertNotIn(f"  {option} ", helps["plan"])
         self.assertIn("URDF: plans for this robot", helps["plan"])
         self.assertIn("URDF: times the motion of this robot", helps["retime"])
-        self.assertIn("its times are left out", helps["retime"])
+        self.assertIn("its times are not used", helps["retime"])
         # What excludes another option says so in its text.
         self.assertNotIn("Excludes", helps["check"])
         self.assertRegex(helps["check"], r"--visual +Takes links as they look, not their collision geometry; not with "
