@@ -475,8 +475,8 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "[s] Time to run. Default: 0.1 more than the longest recording, as its last sample is "
-             "held; 60 with a device in a user's hand; 10 with a simulated one");
+             "[s] Time to run. Default: 0.1 more than the longest recording, whose last sample is "
+             "held. 60 with a device in a user's hand; 10 with a simulated one");
   add_number(*command, "--latency", arguments->latency, Range::not_negative,
              "[s] Time of one cycle of the contact loop, in virtual time");
   add_number(*command, "--radius", arguments->radius, Range::positive,
