@@ -241,6 +241,32 @@ TEST(PlanInTime, NeedsAGoalThatIsFreeAtTheEnd) {
   EXPECT_NE(message(without).find("\"speeds\""), std::string::npos);
 }
 
+// A surface alone has room inside, but there is no way in.
+TEST(PlanInTime, RefusesAGoalInsideASolid) {
+  const auto answer = [](const std::string& solid) {
+    const std::string text = R"({"firstcontact": 1, "options": {"duration": 2}, "bodies": [
+      {"name": "room", "shape": {"vertices": [[-1, -1, -1], [3, -1, -1], [-1, 3, -1], [-1, -1, 3]],
+       "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], "solid": )" +
+                             solid + R"(}},
+      {"name": "cart", "shape": {"sphere": {"radius": 0.1}}, "motion": {"type": "waypoints",
+       "times": [0, 2], "poses": [{"position": [5, 5, 5]}, {"position": [5, 5, 6]}]}},
+      {"name": "ball", "shape": {"sphere": {"radius": 0.05}}, "pose": {"position": [-2, 0, 0]}}],
+      "plan": {"body": "ball", "goal": {"position": [-0.5, -0.5, -0.5]}, "time": 0.2,
+               "speeds": {"linear": 5, "angular": 2}}})";
+    try {
+      const ScenePlan plan = plan_of(text);
+      const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+      return std::string(result.verdict == PlanVerdict::none ? "none" : "a path");
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(answer("false"), "none");
+  EXPECT_NE(answer("true").find("the goal, at the end of the time, is not free: \"room\" and"),
+            std::string::npos)
+      << answer("true");
+}
+
 TEST(PlanInTime, WritesAPathWithTimes) {
   const ScenePlan plan = plan_of(door_scene(2.0));
   const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);

@@ -75,6 +75,11 @@ bool EdgeSearch::is_contact_at(const GeometryCandidate& instant) {
   return is_contact(ask(instant, instant.window).verdict);
 }
 
+bool EdgeSearch::is_inside_at(const GeometryCandidate& candidate, const TimeWindow& within) {
+  return within.begin == within.end &&
+         GeometrySearch(timeline_, candidate, options_, workspace_).is_inside(within.begin);
+}
+
 EdgeFound EdgeSearch::first_contact() {
   follow_motions();
   EdgeFound first;
@@ -178,7 +183,7 @@ EdgeFound EdgeSearch::any_contact(std::vector<GeometryCandidate> candidates,
   EdgeFound unknown;
   for (const GeometryCandidate& candidate : candidates) {
     const FirstContactResult result = ask(candidate, candidate.window);
-    if (is_contact(result.verdict)) {
+    if (is_contact(result.verdict) || is_inside_at(candidate, within)) {
       return contact_of(candidate);
     }
     if (result.verdict == Verdict::undecided) {

@@ -65,6 +65,9 @@ class EdgeSearch {
   [[nodiscard]] const Motion* body_motion(std::size_t geometry) const;
   /// Whether two geometries are in contact at the instant that is the candidate's window.
   [[nodiscard]] bool is_contact_at(const GeometryCandidate& instant);
+  /// Whether one of the two lies in the other, a solid, at an instant. False for longer windows: a
+  /// motion that begins free meets the surface first.
+  [[nodiscard]] bool is_inside_at(const GeometryCandidate& candidate, const TimeWindow& within);
   [[nodiscard]] EdgeFound contact_at(const GeometryCandidate& instant) const;
   /// The finding of a contact whose time was not searched for.
   [[nodiscard]] EdgeFound contact_of(const GeometryCandidate& candidate) const;
