@@ -90,10 +90,7 @@ void scale_by_request(const std::string& file, const RobotModel& model,
                                        "not limited here, got {}",
                                        request.cartesian_speed));
   }
-  for (RateLimits& limit : limits) {
-    limit.velocity *= request.velocity_scaling;
-    limit.acceleration *= request.acceleration_scaling;
-  }
+  scale_limits(request.velocity_scaling, request.acceleration_scaling, limits);
 }
 
 /// @param model  the model of all robots that move

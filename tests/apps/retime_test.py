@@ -158,6 +158,12 @@ class Retime(tool_test.ToolTest):
         self.assertEqual(durations[0, 0], durations[1, 1])  # 0 is unset.
         self.assertGreater(durations[0.1, 1], 1 / 0.15)
         self.assertGreater(durations[1, 0.1], 2 * (1 / 0.5) ** 0.5)
+        ends = []
+        for velocity in (1, 0.1):  # Checked motions are as slow.
+            file = self.file("request.json", {**request, "max_velocity_scaling_factor": velocity})
+            checked = json.loads(self.run_tool("check", "--robot", self.robot, "--request", file, "--json").stdout)
+            ends.append(checked["scene"]["robots"][0]["trajectory"]["points"][-1]["time"])
+        self.assertAlmostEqual(ends[1], 10 * ends[0])
         for key, value in (("max_velocity_scaling_factor", 1.5), ("max_acceleration_scaling_factor", -1),
                            ("max_cartesian_speed", 0.2)):
             file = self.file("request.json", {**request, key: value})

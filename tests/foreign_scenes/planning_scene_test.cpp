@@ -241,6 +241,10 @@ goal_constraints:
   EXPECT_EQ(motion.points[1].positions[0], -1.5);
   EXPECT_NEAR(motion.points[1].time, 0.5, 1e-9);  // Two radians at four in a second.
   EXPECT_GT(motion.points[1].time, 0.5);
+  const Trajectory slow =
+      straight_motion(crane(), request.start, request.goal, Turning::shortest, 0.25);
+  EXPECT_NEAR(slow.points[1].time, 2.0, 1e-9);
+  EXPECT_EQ(slow.points[1].positions, motion.points[1].positions);
 }
 
 // Messages whose pose was never set have zeros, which MoveIt takes as the identity.

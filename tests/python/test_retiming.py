@@ -146,6 +146,19 @@ def test_tracking_error_counts(arm):
     assert fc.retime(along(arm, WAY), limits=LIMITS, tracking_error=0.5).verdict == "refused"
 
 
+def test_scaling_multiplies_all_limits(arm):
+    fast = fc.retime(along(arm, WAY), limits=LIMITS)
+    slow = fc.retime(along(arm, WAY), limits=LIMITS, velocity_scaling=0.25, acceleration_scaling=0.5)
+    assert slow.duration > 2 * fast.duration
+    assert {(use.joint, use.rate): use.limit for use in slow.rates} == {
+        (use.joint, use.rate): use.limit * {"velocity": 0.25, "acceleration": 0.5, "jerk": 1}[use.rate]
+        for use in fast.rates}
+    for option in ("velocity_scaling", "acceleration_scaling"):
+        for bad in (0, 1.5, float("nan")):
+            with pytest.raises(ValueError, match=option):
+                fc.retime(along(arm, WAY), limits=LIMITS, **{option: bad})
+
+
 def test_limits_for_all_joints(arm):
     answer = fc.retime(along(arm, WAY), max_acceleration=4)
     assert answer.verdict == "proven" and answer.trajectory.accelerations is None

@@ -38,6 +38,10 @@ def test_straight_motions_go_the_short_way_as_moveit(scene):
     assert result.turns == (fc.JointTurn("spinner", "turn", 3, -3, pytest.approx(SHORT), "short"),)
     long = scene.straight_motion({"turn": 3}, {"turn": -3}, turning="long")
     assert scene.check(long).verdict == "contact" and scene.check(long).turns[0].turned == -6
+    slow = scene.straight_motion({"turn": 3}, {"turn": -3}, velocity_scaling=0.5)
+    assert slow.times[-1] == pytest.approx(2 * SHORT)
+    with pytest.raises(ValueError, match="velocity_scaling"):
+        scene.straight_motion({"turn": 3}, {"turn": -3}, velocity_scaling=0)
     assert short != long and pickle.loads(pickle.dumps(short)) == short
 
 
@@ -75,5 +79,6 @@ def test_what_was_read_is_warned_of(scene, spinner, tmp_path):
                        "goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}]}]\n")
     asked = fc.read_request(request, spinner)
     assert asked.start == {"turn": 0} and "finger" in asked.warnings[0]
+    assert asked.velocity_scaling == asked.acceleration_scaling == 1
     with pytest.warns(UserWarning, match="fixed joint, finger"):
         scene.straight_motion({"turn": 0, "finger": 1}, {"turn": 1})

@@ -183,6 +183,10 @@ class PlanningRequest(NamedTuple):
     """Of the robot, where the start says it."""
     warnings: tuple[str, ...] = ()
     """What a user should know of the file, such as positions of fixed joints."""
+    velocity_scaling: float = 1.0
+    """[-]  Factor of the velocity limits; in (0, 1]."""
+    acceleration_scaling: float = 1.0
+    """[-]  Factor of the acceleration limits; in (0, 1]."""
 
 
 class RunContacts(NamedTuple):

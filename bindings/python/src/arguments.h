@@ -33,4 +33,14 @@ T argument(pybind11::handle value, const std::string& name, const std::string& w
   }
 }
 
+/// Requires a factor of limits.
+///
+/// @throws pybind11::value_error  it is not in (0, 1]
+inline void require_scaling(double number, const std::string& name) {
+  if (!(number > 0.0 && number <= 1.0)) {
+    throw pybind11::value_error(name + ": expected a number in (0, 1], got " +
+                                std::string(pybind11::repr(pybind11::float_(number))));
+  }
+}
+
 }  // namespace firstcontact::python

@@ -21,6 +21,7 @@
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/shape_cache.h>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "errors.h"
 #include "interrupts.h"
@@ -50,6 +51,8 @@ struct RetimingWish {
   std::optional<std::string> limits_text;  // As a file of limits has it.
   std::optional<std::filesystem::path> limits_file;
   GivenLimits others;
+  double velocity_scaling = 1.0;         // [-]
+  double acceleration_scaling = 1.0;     // [-]
   std::optional<double> tracking_error;  // [rad or m]
   std::optional<double> tolerance;       // [m]
   RetimingOptions options;
@@ -134,8 +137,8 @@ Retiming retimed(const RetimingSource& source, const RetimingWish& wish, std::st
   const std::map<std::string, GivenLimits> given = given_limits(wish, model);
   retiming.scene->where.positions = position_limits_of(given);
   const RetimingScene& where = retiming.scene->where;
-  const std::vector<RateLimits> limits =
-      limits_of(model, input.path.joint_names, given, wish.others);
+  std::vector<RateLimits> limits = limits_of(model, input.path.joint_names, given, wish.others);
+  scale_limits(wish.velocity_scaling, wish.acceleration_scaling, limits);
   RetimingOptions options = wish.options;
   options.proof.tolerance = wish.tolerance.value_or(input.scene.options.tolerance);
   options.proof.budget.stop = std::move(stop);
@@ -240,12 +243,15 @@ py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> tex
                          std::optional<std::string> limits_text,
                          std::optional<std::filesystem::path> limits_file,
                          std::optional<double> max_velocity, std::optional<double> max_acceleration,
-                         std::optional<double> max_jerk, std::optional<double> tracking_error,
+                         std::optional<double> max_jerk, double velocity_scaling,
+                         double acceleration_scaling, std::optional<double> tracking_error,
                          std::optional<double> tolerance, const std::optional<std::string>& which,
                          bool lenient, int threads, OrNone<std::stop_source> stop) {
   require_above_zero(max_velocity, "max_velocity");
   require_above_zero(max_acceleration, "max_acceleration");
   require_above_zero(max_jerk, "max_jerk");
+  require_scaling(velocity_scaling, "velocity_scaling");
+  require_scaling(acceleration_scaling, "acceleration_scaling");
   require_above_zero(tolerance, "tolerance");
   if (tracking_error && !(*tracking_error >= 0.0 && std::isfinite(*tracking_error))) {
     throw py::value_error("tracking_error: expected a finite number >= 0, got " +
@@ -261,6 +267,8 @@ py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> tex
   RetimingWish wish{std::move(limits_text),
                     std::move(limits_file),
                     {max_velocity, max_acceleration, max_jerk},
+                    velocity_scaling,
+                    acceleration_scaling,
                     tracking_error,
                     tolerance,
                     {.mode = retiming_mode_from(mode), .proof = {}}};
@@ -274,9 +282,9 @@ py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> tex
 void bind_retiming(py::module_& m) {
   m.def("retime", &retime_source, py::arg("scene"), py::arg("text"), py::arg("file"), py::kw_only(),
         py::arg("mode"), py::arg("limits_text"), py::arg("limits_file"), py::arg("max_velocity"),
-        py::arg("max_acceleration"), py::arg("max_jerk"), py::arg("tracking_error"),
-        py::arg("tolerance"), py::arg("which"), py::arg("lenient"), py::arg("threads"),
-        py::arg("stop"));
+        py::arg("max_acceleration"), py::arg("max_jerk"), py::arg("velocity_scaling"),
+        py::arg("acceleration_scaling"), py::arg("tracking_error"), py::arg("tolerance"),
+        py::arg("which"), py::arg("lenient"), py::arg("threads"), py::arg("stop"));
 }
 
 }  // namespace firstcontact::python

@@ -213,7 +213,8 @@ HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
 }
 
 Trajectory straight(const HeldRobotScene& scene, const py::object& start, const py::object& goal,
-                    Turning turning) {
+                    Turning turning, double velocity_scaling) {
+  require_scaling(velocity_scaling, "velocity_scaling");
   const SceneRobot& robot = scene.robot();
   JointPositions from = positions_from(start, robot);
   JointPositions to = from;
@@ -221,7 +222,7 @@ Trajectory straight(const HeldRobotScene& scene, const py::object& start, const 
     to[name] = position;
   }
   from.insert(robot.state.begin(), robot.state.end());
-  return straight_motion(robot.model, from, to, turning);
+  return straight_motion(robot.model, from, to, turning, velocity_scaling);
 }
 
 }  // namespace
@@ -473,12 +474,12 @@ at from_time.)")
            py::arg("margin"),
            "Sets the margin [m] of two bodies or links, named as for ignore; >= 0.")
       .def("straight_motion", &straight, py::arg("start"), py::arg("goal"),
-           py::arg("turning") = Turning::shortest,
+           py::arg("turning") = Turning::shortest, py::arg("velocity_scaling") = 1.0,
            R"(Makes a trajectory straight in joint space, as fast as the velocity limits allow.
 
 start, goal: as `state` of the constructor; joints that the goal does not name keep their start.
 turning: the way of continuous joints and of the angles of planar ones, "short" as MoveIt goes, or
-"long" by the numbers.)")
+"long" by the numbers. velocity_scaling: factor of the velocity limits, in (0, 1].)")
       .def("along", &scene_along, py::arg("trajectory"),
            R"(Makes the Scene of this robot on a trajectory, as for check_many.
 

@@ -160,7 +160,8 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
   };
   return py::module_::import("firstcontact._tuples")
       .attr("PlanningRequest")(dict(request.start), dict(request.goal), request.base,
-                               py::tuple(py::cast(request.warnings)));
+                               py::tuple(py::cast(request.warnings)), request.velocity_scaling,
+                               request.acceleration_scaling);
 }
 
 void bind_class(py::module_& m) {

@@ -286,7 +286,7 @@ PlanningRequest read_planning_request(const std::filesystem::path& path, const R
 }
 
 Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
-                           const JointPositions& goal, Turning turning) {
+                           const JointPositions& goal, Turning turning, double velocity_scaling) {
   Trajectory trajectory{
       .joint_names = {}, .points = {{.time = 0.0}, {.time = 0.0}}, .turning = turning};
   double duration = 0.0;
@@ -304,7 +304,7 @@ Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
     const bool is_short = turning == Turning::shortest && takes_short_way(robot, coordinate);
     const double way = is_short ? shortest_way(from, position) : position - from;
     if (joint.limits.velocity.value_or(0.0) > 0.0) {
-      duration = std::max(duration, std::abs(way) / *joint.limits.velocity);
+      duration = std::max(duration, std::abs(way) / (*joint.limits.velocity * velocity_scaling));
     }
   }
   // A little longer, so that rounding exceeds no limit.

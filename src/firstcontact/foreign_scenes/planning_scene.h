@@ -113,9 +113,11 @@ parse_planning_request(std::string_view text, const std::filesystem::path& sourc
 /// Where there are no limits it takes 1 s.
 ///
 /// @param turning  for continuous joints and the angles of planar ones; MoveIt turns the short way
+/// @param velocity_scaling  [-]  factor of the velocity limits; in (0, 1]
 [[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,
                                                           const JointPositions& start,
                                                           const JointPositions& goal,
-                                                          Turning turning = Turning::shortest);
+                                                          Turning turning = Turning::shortest,
+                                                          double velocity_scaling = 1.0);
 
 }  // namespace firstcontact

@@ -242,6 +242,14 @@ std::vector<RateLimits> limits_of(const RobotModel& robot,
   return limits;
 }
 
+void scale_limits(double velocity_scaling, double acceleration_scaling,
+                  std::vector<RateLimits>& limits) {
+  for (RateLimits& limit : limits) {
+    limit.velocity *= velocity_scaling;
+    limit.acceleration *= acceleration_scaling;
+  }
+}
+
 std::map<std::string, PositionLimits> position_limits_of(
     const std::map<std::string, GivenLimits>& given) {
   std::map<std::string, PositionLimits> positions;

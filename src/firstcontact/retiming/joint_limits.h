@@ -58,6 +58,12 @@ struct GivenLimits {
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);
 
+/// Multiplies velocity and acceleration limits by factors, as requests of MoveIt give them.
+///
+/// @param velocity_scaling, acceleration_scaling  [-]  in (0, 1]
+FIRSTCONTACT_API void scale_limits(double velocity_scaling, double acceleration_scaling,
+                                   std::vector<RateLimits>& limits);
+
 /// The limits of positions among given limits, for RetimingScene::positions.
 [[nodiscard]] FIRSTCONTACT_API std::map<std::string, PositionLimits> position_limits_of(
     const std::map<std::string, GivenLimits>& given);

@@ -50,7 +50,8 @@ class SceneBuilder {
       add_environment(file, robot);
     }
     if (goal_) {  // The goal begins where the environment has the joints that nothing else moves.
-      robot.trajectory = straight_motion(robot.model, robot.state, *goal_, turning());
+      robot.trajectory =
+          straight_motion(robot.model, robot.state, *goal_, turning(), velocity_scaling_);
     }
     if (question_.padding > 0.0) {
       for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
@@ -137,6 +138,7 @@ class SceneBuilder {
                                robot.model, robot.semantics.groups);
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
+    velocity_scaling_ = request.velocity_scaling;
     if (!request.link_goal) {
       goal_ = request.goal;
     } else if (question_.plans) {
@@ -390,6 +392,7 @@ class SceneBuilder {
   std::map<std::size_t, std::string> ids_;  // Ids of bodies that come from planning scenes.
   std::filesystem::path around_;
   std::optional<JointPositions> goal_;  // Goal of a straight motion.
+  double velocity_scaling_ = 1.0;       // [-]  Of that motion.
   std::optional<double> around_duration_;
   bool states_duration_ = false;  // Whether a duration is stated; else the motions span any
                                   // duration.
