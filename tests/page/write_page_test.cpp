@@ -59,6 +59,25 @@ TEST(WritePage, HoldsMeshAndGapAndResult) {
             R"("gap_bound":{"t":[0],"distance":[0.5]}}}</script>)");
 }
 
+TEST(WritePage, MarksTrianglesAroundACurvedBody) {
+  const auto page_of = [](const std::string& shape) {
+    ShapeCache cache;
+    return write_page(
+        kTemplate,
+        load_scene(
+            parse_scene(R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": )" + shape + "}]}",
+                        "scene.json"),
+            cache),
+        "{}", {});
+  };
+  for (const char* curved :
+       {R"({"cylinder": {"radius": 1, "length": 2}})", R"({"cone": {"radius": 1, "length": 2}})",
+        R"({"ellipsoid": {"radii": [1, 2, 3]}})"}) {
+    EXPECT_NE(page_of(curved).find("\"smooth\":true"), std::string::npos) << curved;
+  }
+  EXPECT_EQ(page_of(R"({"box": {"size": [1, 1, 1]}})").find("smooth"), std::string::npos);
+}
+
 TEST(ListPage, HoldsEachMeshOnceAndEachResultWordForWord) {
   ListPage list;
   list.add(R"({"id":"a","verdict":"free"})", scene_of_one_triangle());

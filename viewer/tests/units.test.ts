@@ -11,7 +11,8 @@ import { runCharts } from "../src/panels/run_charts";
 import { verdictOf } from "../src/panels/verdict";
 import { Player } from "../src/player";
 import { Run } from "../src/run";
-import { featureEdges } from "../src/view/feature_edges";
+import { DrawnShapes } from "../src/view/drawn_shape";
+import { edgeGeometry, featureEdges } from "../src/view/feature_edges";
 import { roundNumber } from "../src/view/grid";
 
 describe("quantities", () => {
@@ -276,6 +277,54 @@ describe("edges", () => {
   test("keep the diagonal of a bent one", () => {
     const bent = mesh([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1], [0, 1, 2, 0, 2, 3]);
     expect(featureEdges(bent).length / 2).toBe(5);
+  });
+});
+
+describe("a curved body", () => {
+  /// A prism of 24 sides without ends.
+  const sides = 24;
+  const corners = [...Array(2 * sides).keys()].flatMap((k) => {
+    const angle = (2 * Math.PI * (k >> 1)) / sides;
+    return [Math.cos(angle), Math.sin(angle), k & 1];
+  });
+  const triangles = [...Array(sides).keys()].flatMap((k) => {
+    const [a, b] = [2 * k, (2 * k + 2) % (2 * sides)];
+    return [a, b, b + 1, a, b + 1, a + 1];
+  });
+  const prism = {
+    origin: [0, 0, 0] as const,
+    positions: new Float32Array(corners),
+    triangles: new Uint16Array(triangles),
+  };
+  const drawn = (smooth: boolean) =>
+    new DrawnShapes().of({
+      mesh: { ...prism, smooth },
+      radius: 0,
+      to: null,
+      color: null,
+      pose: { position: [0, 0, 0], rotation: [1, 0, 0, 0] },
+    });
+
+  test("has the normals of its surface at the corners", () => {
+    const { geometry, kind } = drawn(true);
+    expect(kind).toBe("smooth");
+    const [position, normal] = [geometry.getAttribute("position"), geometry.getAttribute("normal")];
+    expect(position.count).toBe(3 * 2 * sides);
+    for (let k = 0; k < position.count; ++k) {
+      expect(normal.getX(k)).toBeCloseTo(position.getX(k), 1);
+      expect(normal.getY(k)).toBeCloseTo(position.getY(k), 1);
+      expect(normal.getZ(k)).toBeCloseTo(0, 6);
+    }
+    expect(drawn(false).kind).toBe("triangles");
+  });
+
+  test("has the edges of its mesh, at their places", () => {
+    const edges = edgeGeometry(prism, drawn(true).geometry)!;
+    const [position, index] = [edges.getAttribute("position"), edges.getIndex()!];
+    expect(index.count / 2).toBe(2 * sides);
+    for (let k = 0; k < index.count; k += 2) {
+      expect(position.getZ(index.getX(k))).toBe(position.getZ(index.getX(k + 1)));
+    }
   });
 });
 

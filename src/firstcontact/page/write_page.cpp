@@ -32,7 +32,7 @@ constexpr std::string_view kPlaceholder = "\"FIRSTCONTACT_RESULT\"";
 JsonArray meshes_of_bodies(const LoadedScene& loaded, detail::PageMeshes& meshes) {
   JsonArray bodies;
   for (std::size_t body = 0; body < loaded.scene.bodies.size(); ++body) {
-    bodies.push_back(to_json(meshes.add(shape_of_body(loaded, body).mesh())));
+    bodies.push_back(to_json(meshes.add(shape_of_body(loaded, body))));
   }
   return bodies;
 }

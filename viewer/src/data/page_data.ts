@@ -11,6 +11,8 @@ export interface MeshData {
   readonly origin: Vector3;
   readonly positions: Float32Array;
   readonly triangles: Uint16Array | Uint32Array;
+  /// Whether the triangles enclose a curved body, so that only its sharp edges are to be seen.
+  readonly smooth?: boolean;
 }
 
 /// A polyline over time.
@@ -45,6 +47,7 @@ export interface StoredMesh {
   readonly origin: Vector3;
   readonly positions: string;
   readonly triangles: string;
+  readonly smooth?: boolean;
 }
 
 export interface StoredView {
@@ -68,7 +71,7 @@ export interface StoredPage {
 
 const shortIndices = 65_536; // Vertices; of so many or fewer the corners have two bytes.
 
-export function meshOf({ origin, positions, triangles }: StoredMesh): MeshData {
+export function meshOf({ origin, positions, triangles, smooth }: StoredMesh): MeshData {
   const vertices = new Float32Array(bytesOf(positions));
   const corners = bytesOf(triangles);
   const short = vertices.length / 3 <= shortIndices;
@@ -76,6 +79,7 @@ export function meshOf({ origin, positions, triangles }: StoredMesh): MeshData {
     origin,
     positions: vertices,
     triangles: short ? new Uint16Array(corners) : new Uint32Array(corners),
+    smooth: smooth ?? false,
   };
 }
 

@@ -8,8 +8,10 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
+import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { MeshData } from "../data/page_data";
 import type { BodyGeometry } from "../model";
+import { sharpAngle } from "./feature_edges";
 
 export interface DrawnShape {
   readonly geometry: BufferGeometry;
@@ -46,6 +48,11 @@ function positionsOnly(mesh: MeshData): BufferGeometry {
 
 function surface(mesh: MeshData): BufferGeometry {
   return positionsOnly(mesh).setIndex(new BufferAttribute(mesh.triangles, 1));
+}
+
+/// The triangles around a curved body, shaded as that body. Each has corners of its own.
+function curved(mesh: MeshData): BufferGeometry {
+  return toCreasedNormals(surface(mesh), sharpAngle);
 }
 
 /// @param to  where every vertex ends, in the world; the body frame is the world here
@@ -99,6 +106,9 @@ export class DrawnShapes {
     const { origin } = mesh;
     if (ends) {
       return { geometry: round(ends, radius), origin, kind: "smooth" };
+    }
+    if (mesh.smooth) {
+      return { geometry: curved(mesh), origin, kind: "smooth" };
     }
     return isCloud(mesh)
       ? { geometry: positionsOnly(mesh), origin, kind: "points" }

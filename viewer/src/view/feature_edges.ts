@@ -3,7 +3,9 @@
 import { BufferAttribute, BufferGeometry } from "three";
 import type { MeshData } from "../data/page_data";
 
-const sharp = Math.cos((28 * Math.PI) / 180);
+/// [rad]  Where a surface bends by more, an edge is drawn.
+export const sharpAngle = (28 * Math.PI) / 180;
+const sharp = Math.cos(sharpAngle);
 
 /// Beyond this the lines take longer to find than they are worth.
 const edgesUpTo = 300_000; // triangles
@@ -72,7 +74,10 @@ export function edgeGeometry(mesh: MeshData, surface: BufferGeometry): BufferGeo
     return null;
   }
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", surface.getAttribute("position"));
+  const positions = surface.index
+    ? surface.getAttribute("position")
+    : new BufferAttribute(mesh.positions, 3); // A curved surface shares no corners.
+  geometry.setAttribute("position", positions);
   geometry.morphAttributes = surface.morphAttributes;
   geometry.morphTargetsRelative = surface.morphTargetsRelative;
   geometry.setIndex(new BufferAttribute(featureEdges(mesh), 1));

@@ -21,7 +21,7 @@ constexpr std::size_t kShortIndices = 65'536;
 
 /// Writes a mesh with vertices relative to the middle: so single precision suffices far from the
 /// origin, too.
-JsonValue mesh_to_json(const Mesh& mesh) {
+JsonObject mesh_to_json(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     box.extend(vertex);
@@ -39,9 +39,9 @@ JsonValue mesh_to_json(const Mesh& mesh) {
       triangles.add(corner, mesh.vertices.size() <= kShortIndices ? 2 : 4);
     }
   }
-  return {.value = JsonObject{{"origin", to_json(middle)},
-                              {"positions", {.value = positions.base64()}},
-                              {"triangles", {.value = triangles.base64()}}}};
+  return {{"origin", to_json(middle)},
+          {"positions", {.value = positions.base64()}},
+          {"triangles", {.value = triangles.base64()}}};
 }
 
 /// The key of a geometry's file; empty where the geometry is of no file.
@@ -54,14 +54,19 @@ std::string key_of(const LinkGeometry& geometry) {
 
 }  // namespace
 
-std::size_t PageMeshes::append(const Mesh& mesh) {
-  meshes_.push_back(mesh_to_json(mesh));
+std::size_t PageMeshes::append(const Shape& shape) {
+  JsonObject mesh = mesh_to_json(shape.mesh());
+  if (shape.is_curved()) {
+    mesh.push_back({"smooth", {.value = true}});
+  }
+  meshes_.push_back({.value = std::move(mesh)});
   return meshes_.size() - 1;
 }
 
-std::size_t PageMeshes::add(const Mesh& mesh) {
-  const auto found = of_objects_.find(&mesh);
-  return found != of_objects_.end() ? found->second : of_objects_[&mesh] = append(mesh);
+std::size_t PageMeshes::add(const Shape& shape) {
+  const Mesh* mesh = &shape.mesh();
+  const auto found = of_objects_.find(mesh);
+  return found != of_objects_.end() ? found->second : of_objects_[mesh] = append(shape);
 }
 
 std::size_t PageMeshes::add(const LinkGeometry& geometry) {
@@ -69,8 +74,7 @@ std::size_t PageMeshes::add(const LinkGeometry& geometry) {
   if (const auto found = of_files_.find(key); found != of_files_.end()) {
     return found->second;
   }
-  const std::size_t index =
-      append(geometry.shape ? geometry.shape->mesh() : make_shape(geometry.source).mesh());
+  const std::size_t index = append(geometry.shape ? *geometry.shape : make_shape(geometry.source));
   if (!key.empty()) {
     of_files_[key] = index;
   }

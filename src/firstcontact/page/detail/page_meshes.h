@@ -8,6 +8,7 @@
 #include <string>
 
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/robot/link_geometry.h>
 #include <firstcontact/text/json_tree.h>
 
@@ -16,10 +17,12 @@ namespace firstcontact::detail {
 /// Collects meshes, and numbers them from 0 in the order of adding.
 class PageMeshes {
  public:
-  /// Adds a mesh and returns its number, the same for the same object.
+  /// Adds the mesh of a shape and returns its number, the same for the same object.
   ///
-  /// @param mesh  lives as long as this object
-  [[nodiscard]] std::size_t add(const Mesh& mesh);
+  /// The triangles around a curved shape are marked to be drawn smooth.
+  ///
+  /// @param shape  its mesh lives as long as this object
+  [[nodiscard]] std::size_t add(const Shape& shape);
 
   /// Adds the mesh of a geometry of a link and returns its number, the same for the same file and
   /// scale.
@@ -33,7 +36,7 @@ class PageMeshes {
   [[nodiscard]] JsonArray take();
 
  private:
-  std::size_t append(const Mesh& mesh);
+  std::size_t append(const Shape& shape);
 
   JsonArray meshes_;
   std::map<const Mesh*, std::size_t> of_objects_;
