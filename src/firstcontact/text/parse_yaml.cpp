@@ -5,6 +5,7 @@
 #include <cmath>
 #include <istream>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <streambuf>
@@ -114,18 +115,19 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
-    const bool quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
-    add(mark, anchor, quoted ? JsonVariant(value) : plain_scalar(value));
+    add(mark, anchor, tagged_scalar(mark, tag, value));
   }
 
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
+    require_tag(mark, tag, "seq");
     open(mark, anchor, JsonArray{});
   }
   void OnSequenceEnd() override { close(); }
 
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
+    require_tag(mark, tag, "map");
     open(mark, anchor, JsonObject{});
   }
   void OnMapEnd() override { close(); }
@@ -143,6 +145,44 @@ class TreeBuilder final : public YAML::EventHandler {
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
     throw ParseError(source_, static_cast<std::size_t>(mark.line) + 1, message);
   }
+
+  /// What a scalar stands for, by its tag. A tag that is not known may change a number's unit, so
+  /// it is refused.
+  [[nodiscard]] JsonVariant tagged_scalar(const YAML::Mark& mark, const std::string& tag,
+                                          const std::string& text) const {
+    if (tag == "!" || tag == core_tag("str")) {
+      return text;
+    }
+    if (tag == "!degrees" || tag == "!radians") {  // As in the files of robots for xacro.
+      const std::optional<double> number = decimal(text);
+      if (!number) {
+        fail(mark, "expected a number after " + tag + ", got " + in_quotes(text));
+      }
+      return tag == "!degrees" ? *number * (std::numbers::pi / 180.0) : *number;
+    }
+    JsonVariant value = plain_scalar(text);
+    const bool is_number = std::holds_alternative<double>(value);
+    if (is_plain(tag) || (tag == core_tag("bool") && std::holds_alternative<bool>(value)) ||
+        ((tag == core_tag("int") || tag == core_tag("float")) && is_number)) {
+      return value;
+    }
+    fail_at_tag(mark, tag);
+  }
+
+  void require_tag(const YAML::Mark& mark, const std::string& tag, const char* kind) const {
+    if (!is_plain(tag) && tag != "!" && tag != core_tag(kind)) {
+      fail_at_tag(mark, tag);
+    }
+  }
+
+  [[noreturn]] void fail_at_tag(const YAML::Mark& mark, const std::string& tag) const {
+    fail(mark, "expected no tag but !degrees and !radians, got " + in_quotes(tag));
+  }
+
+  static bool is_plain(const std::string& tag) { return tag.empty() || tag == "?"; }
+
+  /// The long form of "!!name".
+  static std::string core_tag(const std::string& name) { return "tag:yaml.org,2002:" + name; }
 
   void reserve(const YAML::Mark& mark, std::size_t values) {
     count_ += values;

@@ -23,7 +23,8 @@ inline constexpr std::size_t kMaximumRepeatedYamlValues = 1'000'000;
 ///
 /// Plain scalars are those of JSON: null (and ~), true and false (as in YAML 1.2; also with a
 /// capital), decimal numbers that fit a double. All other scalars, those in quotes, `.nan` and
-/// `.inf` are strings.
+/// `.inf` are strings. A number after `!degrees` is converted to radians, one after `!radians` is as
+/// it stands. Other tags than those of YAML's core are refused.
 ///
 /// @param source  names the text in errors
 /// @throws ParseError  with the line and what was expected there
