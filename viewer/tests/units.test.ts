@@ -12,8 +12,9 @@ import { verdictOf } from "../src/panels/verdict";
 import { Player } from "../src/player";
 import { Run } from "../src/run";
 import { DrawnShapes } from "../src/view/drawn_shape";
-import { edgeGeometry, featureEdges } from "../src/view/feature_edges";
+import { featureEdges } from "../src/view/feature_edges";
 import { roundNumber } from "../src/view/grid";
+import { thickHull } from "../src/view/thick_hull";
 
 describe("quantities", () => {
   test("are read in the unit that suits them", () => {
@@ -317,14 +318,30 @@ describe("a curved body", () => {
     }
     expect(drawn(false).kind).toBe("triangles");
   });
+});
 
-  test("has the edges of its mesh, at their places", () => {
-    const edges = edgeGeometry(prism, drawn(true).geometry)!;
-    const [position, index] = [edges.getAttribute("position"), edges.getIndex()!];
-    expect(index.count / 2).toBe(2 * sides);
-    for (let k = 0; k < index.count; k += 2) {
-      expect(position.getZ(index.getX(k))).toBe(position.getZ(index.getX(k + 1)));
+describe("a rounded box", () => {
+  test("reaches the radius beyond its corners, edges and sides, and no farther", () => {
+    const corners = [...Array(8).keys()].map((k) => [k & 1, (k >> 1) & 1, (k >> 2) & 1]);
+    const sides = [0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4];
+    const box = {
+      origin: [0, 0, 0] as const,
+      positions: new Float32Array(corners.flat()),
+      triangles: new Uint16Array([...sides, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6]),
+    };
+    const position = thickHull(box, 0.25).getAttribute("position");
+    let [least, most, high] = [Infinity, 0, 0];
+    for (let k = 0; k < position.count; ++k) {
+      const out = [position.getX(k), position.getY(k), position.getZ(k)].map((x) =>
+        Math.max(0, -x, x - 1),
+      );
+      least = Math.min(least, Math.hypot(...out));
+      most = Math.max(most, Math.hypot(...out));
+      high = Math.max(high, position.getZ(k));
     }
+    expect(least).toBeCloseTo(0.25, 6);
+    expect(most).toBeCloseTo(0.25, 6);
+    expect(high).toBeCloseTo(1.25, 6);
   });
 });
 

@@ -280,8 +280,15 @@ void bind_makers(py::module_& m) {
 
 radius: [m] > 0. length: [m] of the segment, without the caps; >= 0.)");
   m.def(
-      "make_box", [](const py::object& size) { return make_box(vector_from(size, "size")); },
-      py::arg("size"), "Makes a box along the axes, centred at the origin. size: [m] (3,), > 0.");
+      "make_box",
+      [](const py::object& size, double radius) {
+        return make_box(vector_from(size, "size"), radius);
+      },
+      py::arg("size"), py::arg("radius") = 0.0,
+      R"(Makes a box along the axes, centred at the origin; with a radius, a rounded box.
+
+size: [m] (3,), without the radius; > 0. radius: [m] thickens the box on all sides, and rounds its
+edges and corners; >= 0.)");
   m.def("make_cylinder", &make_cylinder, py::arg("radius"), py::arg("length"),
         py::arg("enclosure_error") = py::none(),
         R"(Makes a cylinder about z, centred at the origin. Queries use it exactly.

@@ -13,6 +13,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/detail/thick_hull.h>
 #include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/weld.h>
 #include <firstcontact/math/float_environment.h>
@@ -200,7 +201,11 @@ MassProperties mass_properties(const Shape& shape) {
     bounds.extend(place);
   }
   const Vector3d origin = bounds.center();
-  return of_polyhedron(mesh, origin, facing(mesh, origin));
+  const double sign = facing(mesh, origin);
+  const MassProperties core = of_polyhedron(mesh, origin, sign);
+  return shape.is_solid() && shape.radius() > 0.0 && detail::is_convex(mesh, sign)
+             ? detail::thickened(core, mesh, sign, shape.radius())
+             : core;
 }
 
 }  // namespace firstcontact

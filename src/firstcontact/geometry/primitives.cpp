@@ -66,10 +66,12 @@ Shape make_capsule(double radius, double length) {
       Filling::surface, 0.0, ConvexSet::capsule(radius, length));
 }
 
-Shape make_box(const Eigen::Vector3d& size) {
+Shape make_box(const Eigen::Vector3d& size, double radius) {
   for (const double length : size) {
     require(is_size(length), "make_box: size must be in 1e-60 ... 1e60", length);
   }
+  require(radius == 0.0 || is_size(radius), "make_box: radius must be 0 or in 1e-60 ... 1e60",
+          radius);
   Mesh mesh;
   for (unsigned k = 0; k < 8; ++k) {
     const auto side = [&](unsigned axis) { return (k >> axis & 1u) != 0 ? 0.5 : -0.5; };
@@ -77,7 +79,7 @@ Shape make_box(const Eigen::Vector3d& size) {
   }
   mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
-  return Shape(std::move(mesh), Filling::solid, 0.0, ConvexSet::box(size));
+  return Shape(std::move(mesh), Filling::solid, 0.0, ConvexSet::box(size, radius));
 }
 
 Shape make_cylinder(double radius, double length, std::optional<double> enclosure_error) {

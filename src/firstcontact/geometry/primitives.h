@@ -43,13 +43,14 @@ inline constexpr double kFlattestEllipsoid = 1e-30;
 /// @param length  [m]  of the segment, without the caps; >= 0
 [[nodiscard]] FIRSTCONTACT_API Shape make_capsule(double radius, double length);
 
-/// Makes a box along the axes, centred at the origin.
+/// Makes a box along the axes, centred at the origin; with a radius, a rounded box.
 ///
 /// Faces 0 and 1 make the side at -x, then two each for +x, -y, +y, -z, +z. Vertex k is at +x where
 /// bit 0 of k is set, +y for bit 1, +z for bit 2.
 ///
-/// @param size  [m]  of the whole box along each axis; > 0
-[[nodiscard]] FIRSTCONTACT_API Shape make_box(const Eigen::Vector3d& size);
+/// @param size    [m]  of the box along each axis, without the radius; > 0
+/// @param radius  [m]  thickens the box on all sides, and rounds its edges and corners; >= 0
+[[nodiscard]] FIRSTCONTACT_API Shape make_box(const Eigen::Vector3d& size, double radius = 0.0);
 
 /// Makes a cylinder about z, centred at the origin.
 ///

@@ -35,7 +35,7 @@ struct CapsuleShape {
   double length = 0.0;  ///< [m]  Length of the segment along z, without the caps.
 };
 
-/// A box, with the parameters of make_box().
+/// A box, with the parameters of make_box(); its radius is BodyShape::radius.
 struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]
 };
@@ -92,8 +92,7 @@ struct BodyShape {
   std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
                EllipsoidShape, ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
       source;
-  double radius = 0.0;  ///< [m]  Thickens any source but the primitives from sphere to ellipsoid;
-                        ///< >= 0.
+  double radius = 0.0;  ///< [m]  Thickens a box, and any source that is no primitive; >= 0.
   Filling filling = Filling::surface;  ///< The filling of a mesh.
   double enclosure_error = 0.0;        ///< [m]  Shape::enclosure_error() of an inline mesh; >= 0.
 };

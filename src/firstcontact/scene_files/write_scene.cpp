@@ -129,7 +129,11 @@ struct ShapeMembers {
   }
 
   JsonObject operator()(const BoxShape& box) const {
-    return {{"box", {.value = JsonObject{{"size", to_json(box.size)}}}}};
+    JsonObject object{{"box", {.value = JsonObject{{"size", to_json(box.size)}}}}};
+    if (radius > 0.0) {
+      object.push_back({"radius", to_json(radius)});
+    }
+    return object;
   }
 
   JsonObject operator()(const CylinderShape& cylinder) const {

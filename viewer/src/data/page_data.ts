@@ -13,6 +13,8 @@ export interface MeshData {
   readonly triangles: Uint16Array | Uint32Array;
   /// Whether the triangles enclose a curved body, so that only its sharp edges are to be seen.
   readonly smooth?: boolean;
+  /// Whether they enclose a convex body that a radius thickens.
+  readonly convex?: boolean;
 }
 
 /// A polyline over time.
@@ -48,6 +50,7 @@ export interface StoredMesh {
   readonly positions: string;
   readonly triangles: string;
   readonly smooth?: boolean;
+  readonly convex?: boolean;
 }
 
 export interface StoredView {
@@ -71,7 +74,7 @@ export interface StoredPage {
 
 const shortIndices = 65_536; // Vertices; of so many or fewer the corners have two bytes.
 
-export function meshOf({ origin, positions, triangles, smooth }: StoredMesh): MeshData {
+export function meshOf({ origin, positions, triangles, smooth, convex }: StoredMesh): MeshData {
   const vertices = new Float32Array(bytesOf(positions));
   const corners = bytesOf(triangles);
   const short = vertices.length / 3 <= shortIndices;
@@ -80,6 +83,7 @@ export function meshOf({ origin, positions, triangles, smooth }: StoredMesh): Me
     positions: vertices,
     triangles: short ? new Uint16Array(corners) : new Uint32Array(corners),
     smooth: smooth ?? false,
+    convex: convex ?? false,
   };
 }
 

@@ -12,6 +12,7 @@ import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.j
 import type { MeshData } from "../data/page_data";
 import type { BodyGeometry } from "../model";
 import { sharpAngle } from "./feature_edges";
+import { thickHull } from "./thick_hull";
 
 export interface DrawnShape {
   readonly geometry: BufferGeometry;
@@ -106,6 +107,9 @@ export class DrawnShapes {
     const { origin } = mesh;
     if (ends) {
       return { geometry: round(ends, radius), origin, kind: "smooth" };
+    }
+    if (mesh.convex && radius > 0) {
+      return { geometry: thickHull(mesh, radius), origin, kind: "smooth" };
     }
     if (mesh.smooth) {
       return { geometry: curved(mesh), origin, kind: "smooth" };

@@ -74,10 +74,7 @@ export function edgeGeometry(mesh: MeshData, surface: BufferGeometry): BufferGeo
     return null;
   }
   const geometry = new BufferGeometry();
-  const positions = surface.index
-    ? surface.getAttribute("position")
-    : new BufferAttribute(mesh.positions, 3); // A curved surface shares no corners.
-  geometry.setAttribute("position", positions);
+  geometry.setAttribute("position", surface.getAttribute("position"));
   geometry.morphAttributes = surface.morphAttributes;
   geometry.morphTargetsRelative = surface.morphTargetsRelative;
   geometry.setIndex(new BufferAttribute(featureEdges(mesh), 1));

@@ -59,6 +59,9 @@ std::size_t PageMeshes::append(const Shape& shape) {
   if (shape.is_curved()) {
     mesh.push_back({"smooth", {.value = true}});
   }
+  if (shape.radius() > 0.0 && shape.convex_set() != nullptr) {
+    mesh.push_back({"convex", {.value = true}});
+  }
   meshes_.push_back({.value = std::move(mesh)});
   return meshes_.size() - 1;
 }

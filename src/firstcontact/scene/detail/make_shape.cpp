@@ -72,7 +72,7 @@ struct ShapeMaker {
     return {make_capsule(capsule.radius, capsule.length), {}};
   }
 
-  ShapeReading operator()(const BoxShape& box) const { return {make_box(box.size), {}}; }
+  ShapeReading operator()(const BoxShape& box) const { return {make_box(box.size, radius), {}}; }
 
   ShapeReading operator()(const CylinderShape& cylinder) const {
     return {make_cylinder(cylinder.radius, cylinder.length, cylinder.enclosure_error), {}};

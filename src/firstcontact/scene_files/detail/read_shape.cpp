@@ -79,7 +79,7 @@ class ShapeReader {
          &ShapeReader::inline_mesh},
         {"sphere", {}, &ShapeReader::sphere},
         {"capsule", {}, &ShapeReader::capsule},
-        {"box", {}, &ShapeReader::box},
+        {"box", {"radius"}, &ShapeReader::box},
         {"cylinder", {}, &ShapeReader::cylinder},
         {"cone", {}, &ShapeReader::cone},
         {"ellipsoid", {}, &ShapeReader::ellipsoid},
@@ -184,12 +184,15 @@ class ShapeReader {
     };
   }
 
-  void box(const JsonValue&, const JsonValue& value, BodyShape& result) {
+  void box(const JsonValue& shape, const JsonValue& value, BodyShape& result) {
     (void)read_.object(value, {{"size"}});
     const JsonValue& lengths = read_.member(value, "size");
     result.source = BoxShape{read_.vector3(lengths)};
     for (const JsonValue& length : std::get<JsonArray>(lengths.value)) {
       (void)size(length);
+    }
+    if (result.radius > 0.0) {
+      (void)size(*find(std::get<JsonObject>(shape.value), "radius"));
     }
   }
 
