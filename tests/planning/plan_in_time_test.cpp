@@ -121,6 +121,37 @@ TEST(PlanInTime, IsTheSameForASeed) {
   EXPECT_EQ(answer(1).times, answer(1).times);
 }
 
+// Every edge of both trees keeps clear of the door at all of its times.
+TEST(PlanInTime, KeepsTreesWithFreeEdges) {
+  const ScenePlan plan = plan_of(door_scene(2.0));
+  PlanOptions options = plan.options;
+  const PlanResult without = plan_path(plan.plan, plan.start, plan.goals, options);
+  options.keep_trees = true;
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, options);
+  EXPECT_TRUE(without.trees.empty());
+  EXPECT_EQ(without.path, result.path);
+  EXPECT_EQ(without.times, result.times);
+  ASSERT_EQ(result.trees.size(), 2u);
+  EXPECT_EQ(result.trees[0].places.size() + result.trees[1].places.size(), result.statistics.nodes);
+  for (const SearchTree& tree : result.trees) {
+    ASSERT_EQ(tree.times.size(), tree.places.size());
+    ASSERT_FALSE(tree.edges.empty());
+    for (const auto& [parent, child] : tree.edges) {
+      const bool is_forward = tree.kind == SearchTreeKind::from_start;
+      EXPECT_EQ(is_forward, tree.times[parent] < tree.times[child]);
+      const auto at = [&](std::size_t node, double share) {
+        const Configuration& q = tree.places[node];
+        return Vector3d(share * Vector3d(q[0], q[1], q[2]));
+      };
+      for (int k = 0; k <= 20; ++k) {
+        const double share = k / 20.0;
+        const double time = (1.0 - share) * tree.times[parent] + share * tree.times[child];
+        EXPECT_GT(distance_to_door(at(parent, 1.0 - share) + at(child, share), time), 0.0);
+      }
+    }
+  }
+}
+
 /// A cart that has to go around a wall, while something far away moves.
 std::string wall_scene(double duration, int seed) {
   return R"({"firstcontact": 1,

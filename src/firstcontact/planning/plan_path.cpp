@@ -124,6 +124,7 @@ class PlanSearch {
     const std::optional<Configuration> from = open_ends(start, random);
     FoundPath found = from ? search(*from, random) : FoundPath{{start}, false};
     PlanResult result;
+    result.trees = std::move(found.trees);
     result.warnings = contacts_.warnings();
     result.warnings.insert(result.warnings.end(), warnings_.begin(), warnings_.end());
     if (found.reaches_goal) {

@@ -17,6 +17,7 @@
 #include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/planning/search_tree.h>
 #include <firstcontact/scene/plan_question.h>
 
 namespace firstcontact {
@@ -44,6 +45,7 @@ struct PlanOptions {
   std::size_t shortcuts = 100;  ///< Tries to shorten the path; 0 leaves it as it is.
   bool approximate = false;     ///< Without a path, returns one that ends as near to a goal as the
                                 ///< search came.
+  bool keep_trees = false;      ///< Returns the trees of the search: PlanResult::trees.
   int threads = 0;            ///< Threads of the proof at the end; at most, 0 for one on each core.
   std::stop_token stop = {};  ///< Ends with the best path so far.
   /// Called now and then from the calling thread; may be empty.
@@ -120,6 +122,11 @@ struct PlanResult {
   double cost = 0.0;                               ///< Length of the path, by that of the space.
   std::vector<std::string> warnings = {};          ///< Such as goals that are not free.
   PlanStatistics statistics = {};
+  /// The trees of the search, or its roadmap; empty without PlanOptions::keep_trees.
+  ///
+  /// Edges on which contact pairs open at an end of the path are not among theirs. Empty also where
+  /// the start is a goal.
+  std::vector<SearchTree> trees = {};
 };
 
 /// Plans a path from a start to one of several goals, and proves it.

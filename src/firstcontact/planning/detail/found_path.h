@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/planning/search_tree.h>
 
 namespace firstcontact::detail {
 
@@ -14,6 +15,7 @@ struct FoundPath {
   std::vector<Configuration> places;  ///< Places between proven edges; at least the start.
   bool reaches_goal = false;  ///< Whether it ends at a goal; else it ends as near to a goal as the
                               ///< search came.
+  std::vector<SearchTree> trees = {};  ///< Empty without PlanOptions::keep_trees.
 };
 
 }  // namespace firstcontact::detail

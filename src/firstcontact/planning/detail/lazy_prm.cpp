@@ -40,7 +40,11 @@ class Roadmap {
     }
     search();
     work_.counts().nodes = places_.size();
-    return best_ ? FoundPath{best_->places, true} : nearest();
+    FoundPath found = best_ ? FoundPath{best_->places, true} : nearest();
+    if (work_.options().keep_trees) {
+      found.trees.push_back(take_roadmap());
+    }
+    return found;
   }
 
  private:
@@ -207,6 +211,17 @@ class Roadmap {
       found.places.push_back(places_[node]);
     }
     return found;
+  }
+
+  /// Gives the places away, with the edges that are proven.
+  [[nodiscard]] SearchTree take_roadmap() {
+    SearchTree roadmap{.kind = SearchTreeKind::roadmap, .places = std::move(places_)};
+    for (const Edge& edge : edges_) {
+      if (edge.known == Known::free) {
+        roadmap.edges.push_back({edge.a, edge.b});
+      }
+    }
+    return roadmap;
   }
 
   PlanWork& work_;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <firstcontact/edges/detail/edge_question.h>
 #include <firstcontact/math/random_numbers.h>
@@ -56,7 +57,10 @@ class PlanInTime {
     if (require_free(start, goals)) {
       RandomNumbers random(options_.seed);
       const auto is_over = [this] { return report_and_ask(); };
-      std::vector<TimedPlace> path = timed_connect(edges_, start, goals, range, random, is_over);
+      TimedFound found =
+          timed_connect(edges_, start, goals, range, random, is_over, options_.keep_trees);
+      result.trees = std::move(found.trees);
+      std::vector<TimedPlace>& path = found.path;
       if (!path.empty()) {
         edges_.counts().first_path_seconds = seconds();
         edges_.counts().first_cost = cost_of(path);

@@ -3,19 +3,38 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/planning/search_tree.h>
 
 namespace firstcontact::detail {
+
+/// Stands for the parent of a root.
+inline constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+
+/// The edges from parents to their children.
+///
+/// @param parents  of each node; kNoParent of a root
+[[nodiscard]] inline std::vector<std::array<std::size_t, 2>> edges_of_parents(
+    const std::vector<std::size_t>& parents) {
+  std::vector<std::array<std::size_t, 2>> edges;
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (parents[node] != kNoParent) {
+      edges.push_back({parents[node], node});
+    }
+  }
+  return edges;
+}
 
 /// Places, each with an edge from its parent that is proven. Refers to the space.
 class PlanTree {
  public:
-  static constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t kNoParent = detail::kNoParent;
 
   explicit PlanTree(const ConfigurationSpace& space) : space_(&space) {}
 
@@ -69,6 +88,11 @@ class PlanTree {
       places.push_back(places_[node]);
     }
     return places;
+  }
+
+  /// Gives the tree away, with an edge for each place that has a parent.
+  [[nodiscard]] SearchTree take(SearchTreeKind kind) {
+    return {.kind = kind, .places = std::move(places_), .edges = edges_of_parents(parents_)};
   }
 
  private:

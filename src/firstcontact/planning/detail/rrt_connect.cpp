@@ -76,6 +76,11 @@ class Connect {
 
   [[nodiscard]] std::size_t size() const { return trees_[0].size() + trees_[1].size(); }
 
+  /// Gives both trees away.
+  [[nodiscard]] std::vector<SearchTree> take_trees() {
+    return {trees_[0].take(SearchTreeKind::from_start), trees_[1].take(SearchTreeKind::from_goals)};
+  }
+
  private:
   /// The nodes of both trees at which they met.
   using Meeting = std::array<std::size_t, 2>;
@@ -261,6 +266,9 @@ FoundPath rrt_connect(PlanWork& work, const Configuration& start,
   Connect connect(work, range);
   FoundPath found = connect.run(start, goals, random);
   work.counts().nodes = connect.size();
+  if (work.options().keep_trees) {
+    found.trees = connect.take_trees();
+  }
   return found;
 }
 

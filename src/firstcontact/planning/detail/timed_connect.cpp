@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/planning/detail/plan_tree.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kRestNodes = 16;  // Number of times at which a goal is a node, while it is
                                         // free.
 constexpr int kMostSteps = 32;          // Most steps of a tree towards a node of the other one.
@@ -82,6 +82,17 @@ class TimedTree {
     return places;
   }
 
+  /// Gives the tree away, with an edge for each place that has a parent.
+  [[nodiscard]] SearchTree take() {
+    SearchTree tree{.kind = is_forward_ ? SearchTreeKind::from_start : SearchTreeKind::from_goals,
+                    .edges = edges_of_parents(parents_)};
+    for (TimedPlace& place : places_) {
+      tree.places.push_back(std::move(place.q));
+      tree.times.push_back(place.t);
+    }
+    return tree;
+  }
+
  private:
   const TimedEdges& edges_;
   bool is_forward_;
@@ -110,6 +121,11 @@ class TimedConnect {
     }
     edges_.counts().nodes = trees_[0].size() + trees_[1].size();
     return met ? joined(*met) : std::vector<TimedPlace>{};
+  }
+
+  /// Gives both trees away.
+  [[nodiscard]] std::vector<SearchTree> take_trees() {
+    return {trees_[0].take(), trees_[1].take()};
   }
 
  private:
@@ -212,10 +228,16 @@ class TimedConnect {
 
 }  // namespace
 
-std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
-                                      const std::vector<Configuration>& goals, double range,
-                                      RandomNumbers& random, const std::function<bool()>& is_over) {
-  return TimedConnect(edges, range).run(start, goals, random, is_over);
+TimedFound timed_connect(TimedEdges& edges, const Configuration& start,
+                         const std::vector<Configuration>& goals, double range,
+                         RandomNumbers& random, const std::function<bool()>& is_over,
+                         bool keep_trees) {
+  TimedConnect connect(edges, range);
+  TimedFound found{connect.run(start, goals, random, is_over), {}};
+  if (keep_trees) {
+    found.trees = connect.take_trees();
+  }
+  return found;
 }
 
 }  // namespace firstcontact::detail

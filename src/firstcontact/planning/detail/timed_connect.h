@@ -8,10 +8,17 @@
 
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/timed_place.h>
+#include <firstcontact/planning/search_tree.h>
 
 namespace firstcontact::detail {
 
 class TimedEdges;
+
+/// What the trees in space and time led to.
+struct TimedFound {
+  std::vector<TimedPlace> path;   ///< From the time 0 to the duration; empty where there is none.
+  std::vector<SearchTree> trees;  ///< The two trees, where they were to be kept.
+};
 
 /// Looks for a way from a start at time 0 to one of several goals, where it rests until the end.
 ///
@@ -23,10 +30,10 @@ class TimedEdges;
 ///
 /// @param range    [-]  the longest edge, in the length of the space
 /// @param is_over  whether to end without an answer
-/// @returns places with times from 0 to the duration; empty where none was found
-[[nodiscard]] std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
-                                                    const std::vector<Configuration>& goals,
-                                                    double range, RandomNumbers& random,
-                                                    const std::function<bool()>& is_over);
+/// @param keep_trees  whether the trees are returned, too
+[[nodiscard]] TimedFound timed_connect(TimedEdges& edges, const Configuration& start,
+                                       const std::vector<Configuration>& goals, double range,
+                                       RandomNumbers& random, const std::function<bool()>& is_over,
+                                       bool keep_trees);
 
 }  // namespace firstcontact::detail
