@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/retiming/retiming_path.h>
 #include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/timed_motion.h>
@@ -18,6 +22,7 @@
 #include <firstcontact/scene_files/write_result.h>
 
 #include "atomic_file.h"
+#include "drawn_path.h"
 #include "scene_answer.h"
 
 namespace firstcontact::app {
@@ -102,15 +107,20 @@ void forget_velocities(std::vector<SceneLimits>& limits) {
   std::erase_if(limits, [](const SceneLimits& of_robot) { return of_robot.violations.empty(); });
 }
 
-}  // namespace
+/// A scene in which a mover runs along its path.
+struct PlayedPath {
+  Scene scene;
+  std::vector<double> times;  // [s]  When it is at each waypoint.
+};
 
-Scene scene_in_motion(const PlannedPath& path) {
+PlayedPath played(const PlannedPath& path) {
   Scene scene = path.scene;
   hold_contact_pairs(path.contact_pairs, scene);
   std::vector<double> times;
+  std::vector<double> all;
   if (!path.body.empty()) {
     WaypointMotion motion;
-    const std::vector<double> all = times_of(path, path.waypoints);
+    all = times_of(path, path.waypoints);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const std::vector<double>& q = path.waypoints[k];
       append(motion.times, motion.poses, all[k],
@@ -124,7 +134,7 @@ Scene scene_in_motion(const PlannedPath& path) {
       turns_short.push_back(turning == Turning::shortest);
     }
     const WaypointPath unwound_path = unwound({path.joints, path.waypoints}, turns_short);
-    const std::vector<double> all = times_of(path, unwound_path.waypoints);
+    all = times_of(path, unwound_path.waypoints);
     std::vector<std::vector<double>> positions;
     for (std::size_t k = 0; k < all.size(); ++k) {
       append(times, positions, all[k], unwound_path.waypoints[k]);
@@ -132,8 +142,41 @@ Scene scene_in_motion(const PlannedPath& path) {
     give_trajectories(path, times, positions, scene);
   }
   scene.duration = times.size() > 1 ? times.back() : 1.0;
-  return scene;
+  return {std::move(scene), std::move(all)};
 }
+
+/// Answers a scene and writes its page.
+///
+/// @param asks_gap  whether the page has the gap over time and the closest approach
+/// @param draw  called with the scene that is played; null where the page draws no path
+void write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool has_times,
+                       const std::function<PathLook(const LoadedScene&)>& draw) {
+  Question question;
+  question.closest = asks_gap;
+  question.gap_curve = asks_gap;
+  question.stop = page.stop;
+  question.doing = page.doing;
+  ShapeCache cache;
+  ManyBodiesWorkspace workspace;
+  SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
+  if (page.stop.stop_requested()) {
+    return;
+  }
+  if (!has_times) {
+    forget_velocities(answer.loaded.limits);
+  }
+  const std::string result = write_result(answer.loaded, answer.result,
+                                          {.all_pairs = asks_gap, .line = {}, .sampling = {}});
+  const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
+  std::optional<PathLook> look;
+  if (draw) {
+    look = draw(answer.loaded);
+  }
+  write_file(page.file, write_page(page.viewer, answer.loaded, result, {answer.curve, bound},
+                                   look ? &*look : nullptr));
+}
+
+}  // namespace
 
 Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
                       const TimedMotion& motion) {
@@ -147,27 +190,27 @@ Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
   return scene;
 }
 
-void write_motion_page(const std::string& file, const std::string& viewer, Scene scene,
-                       bool has_times, const std::stop_token& stop,
-                       const std::function<void(std::string)>& doing) {
-  Question question;
-  question.closest = true;
-  question.gap_curve = true;
-  question.stop = stop;
-  question.doing = doing;
-  ShapeCache cache;
-  ManyBodiesWorkspace workspace;
-  SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
-  if (stop.stop_requested()) {
-    return;
-  }
-  if (!has_times) {
-    forget_velocities(answer.loaded.limits);
-  }
-  const std::string result =
-      write_result(answer.loaded, answer.result, {.all_pairs = true, .line = {}, .sampling = {}});
-  const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
-  write_file(file, write_page(viewer, answer.loaded, result, {answer.curve, bound}));
+void write_motion_page(const MotionPage& page, Scene scene) {
+  write_answer_page(page, std::move(scene), true, true, nullptr);
+}
+
+void write_path_page(const MotionPage& page, const PlannedPath& path, std::vector<TreeLook> trees) {
+  PlayedPath played_path = played(path);
+  const auto draw = [&](const LoadedScene& loaded) {
+    PathLook look = drawn_path(path, played_path.times, loaded);
+    look.trees = std::move(trees);
+    return look;
+  };
+  write_answer_page(page, std::move(played_path.scene), true, !path.times.empty(), draw);
+}
+
+void write_failure_page(const MotionPage& page, const ScenePlan& plan, const PlanResult& result) {
+  const auto draw = [&](const LoadedScene&) {
+    PathLook look = drawn_failure(plan, result);
+    look.trees = drawn_trees(plan, result.trees);
+    return look;
+  };
+  write_answer_page(page, plan.loaded.scene, false, true, draw);
 }
 
 }  // namespace firstcontact::app

@@ -22,6 +22,7 @@
 #include "atomic_file.h"
 #include "command_line_file.h"
 #include "command_line_number.h"
+#include "drawn_path.h"
 #include "interrupt.h"
 #include "motion_page.h"
 #include "output_files.h"
@@ -154,6 +155,7 @@ class Plan {
     options.shortcuts = arguments_.shortcuts;
     options.approximate = arguments_.approximate;
     options.threads = arguments_.threads;
+    options.keep_trees = !arguments_.page.empty();
     options.stop = interrupt_.token();
     options.progress = [this](const PlanProgress& done) {
       progress_.doing(fmt::format("planning: {} configurations{}", done.nodes,
@@ -169,15 +171,11 @@ class Plan {
       if (!arguments_.output.empty()) {
         write_file(arguments_.output, text);
       }
-      if (!arguments_.page.empty()) {
-        write_motion_page(arguments_.page, viewer_, scene_in_motion(*path), !path->times.empty(),
-                          interrupt_.token(),
-                          [this](const std::string& what) { progress_.doing("page: " + what); });
-      }
       if (arguments_.json) {
         std::fwrite(text.data(), 1, text.size(), stdout);
       }
     }
+    write_page_of(scene, result, path);
     if (!arguments_.json) {
       say(describe(scene, options, result, path));
     } else if (!path) {
@@ -187,6 +185,24 @@ class Plan {
     return result.verdict == PlanVerdict::proven        ? ExitStatus::free
            : result.verdict == PlanVerdict::approximate ? ExitStatus::undecided
                                                         : ExitStatus::contact;
+  }
+
+  /// Writes the page of a path, or that of a search without one.
+  void write_page_of(const ScenePlan& scene, const PlanResult& result,
+                     const std::optional<PlannedPath>& path) {
+    if (arguments_.page.empty()) {
+      return;
+    }
+    // Ctrl-C has ended the search, not the page.
+    const MotionPage page{
+        .file = arguments_.page, .viewer = viewer_, .stop = {}, .doing = [this](const auto& what) {
+          progress_.doing("page: " + what);
+        }};
+    if (path) {
+      write_path_page(page, *path, drawn_trees(scene, result.trees));
+    } else {
+      write_failure_page(page, scene, result);
+    }
   }
 
   [[nodiscard]] static std::string pair_name(const ScenePlan& scene, const BodyPair& pair) {
@@ -292,7 +308,7 @@ class Plan {
     if (path && !arguments_.output.empty()) {
       line("written", arguments_.output + "; `firstcontact verify` proves it again");
     }
-    if (path && !arguments_.page.empty()) {
+    if (!arguments_.page.empty()) {
       line("page", arguments_.page);
     }
     return text;
@@ -342,7 +358,8 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
                       ".json with \"plan\": the moving robot or body, its start and its goal");
   add_file(*command, "-o,--output", arguments->output,
            "Writes the path to a file, with all that `verify` needs");
-  add_file(*command, "--html", arguments->page, "Makes a page that plays the path");
+  add_file(*command, "--html", arguments->page,
+           "Makes a page that plays the path, or shows a search that found none");
   command->add_flag("--json", arguments->json, "Prints the path as JSON in place of text");
   command
       ->add_option("--planner", arguments->planner,

@@ -305,9 +305,9 @@ ExitStatus retime_path(const Arguments& arguments) {
     }
     write_file(arguments.output, text);
     if (!arguments.page.empty()) {
-      write_motion_page(arguments.page, viewer, scene_in_motion(input, scene.where, retimed.motion),
-                        /*has_times=*/true, interrupt.token(),
-                        [&](const std::string& what) { progress.doing("page: " + what); });
+      const auto doing = [&](const std::string& what) { progress.doing("page: " + what); };
+      write_motion_page({arguments.page, viewer, interrupt.token(), doing},
+                        scene_in_motion(input, scene.where, retimed.motion));
     }
     say(report.proven(proof));
     flush_stdout();

@@ -25,12 +25,16 @@
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/provable_file.h>
 
 #include "atomic_file.h"
 #include "command_line_file.h"
 #include "interrupt.h"
+#include "motion_page.h"
 #include "output_files.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
@@ -115,9 +119,10 @@ std::string page_of_run(const std::string& page, const std::string& path, const 
   return collected.write(page, loaded);
 }
 
+/// @param text  of the result
 std::string page_of_result(const std::string& page, const std::string& path,
-                           const OutputFile& output, const ReadingOptions& reading) {
-  const std::string text = read_text(path);
+                           const std::string& text, const OutputFile& output,
+                           const ReadingOptions& reading) {
   StoredResult stored = read_result(text, path, reading);
   require_no_input({output}, files_of(stored.scene));
   const Interrupt interrupt;
@@ -129,6 +134,37 @@ std::string page_of_result(const std::string& page, const std::string& path,
   answer.clearance = stored.clearance;
   const std::vector<GapPoint> bound = gap_lower_bound(loaded, answer, gap);
   return write_page(page, loaded, text, {gap, bound});
+}
+
+/// @param text  of the path
+void write_page_of_path(const std::string& page, const std::string& path, const std::string& text,
+                        const OutputFile& output, const ReadingOptions& reading) {
+  const PlannedPath planned = parse_planned_path(text, path, {.lenient = reading.lenient});
+  require_no_input({output}, files_of(planned.scene));
+  const Interrupt interrupt;
+  try {
+    ShapeCache cache;
+    (void)load_scene_of(planned, cache);  // Refuses a path of files that have changed.
+    write_path_page({.file = output.path, .viewer = page, .stop = interrupt.token()}, planned);
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(path, error.what());
+  }
+}
+
+/// Writes the page of a run, a path or a result.
+void write_page_of(const std::string& path, const OutputFile& output,
+                   const ReadingOptions& reading) {
+  const std::string page = viewer_page();
+  if (is_run(path)) {
+    write_file(output.path, page_of_run(page, path, output, reading));
+    return;
+  }
+  const std::string text = read_text(path);
+  if (provable_file(text) == ProvableFile::path) {
+    write_page_of_path(page, path, text, output, reading);
+  } else {
+    write_file(output.path, page_of_result(page, path, text, output, reading));
+  }
 }
 
 void write_animation(const Arguments& arguments) {
@@ -151,16 +187,13 @@ void view(const Arguments& arguments) {
     write_animation(arguments);
     return;
   }
-  const std::string page = viewer_page();
   const std::string& path = arguments.result;
   const std::string output = arguments.output.empty()
                                  ? std::filesystem::path(path).replace_extension(".html").string()
                                  : arguments.output;
   const OutputFile file{.option = "-o", .path = output};
   require_no_input({file}, {path});
-  const ReadingOptions reading = arguments.reading();
-  write_file(output, is_run(path) ? page_of_run(page, path, file, reading)
-                                  : page_of_result(page, path, file, reading));
+  write_page_of(path, file, arguments.reading());
   say(visible(output) + "\n");
   flush_stdout();
   if (!arguments.no_open) {
@@ -172,7 +205,7 @@ void view(const Arguments& arguments) {
 
 void add_view_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "view", "Makes a page that plays a result or a run, and opens it in the browser");
+      "view", "Makes a page that plays a result, a run or a path, and opens it in the browser");
   auto arguments = std::make_shared<Arguments>();
   command
       ->add_option(

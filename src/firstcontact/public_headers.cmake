@@ -121,6 +121,7 @@ set(supporting_headers
   firstcontact/robot/tracking_error.h
   firstcontact/robot_files/motion_capture.h
   firstcontact/robot_check/robot_scene.h
+  firstcontact/planning/search_tree.h
   firstcontact/scene/body_motion.h
   firstcontact/scene/body_shape.h
   firstcontact/scene/gap_bound.h
@@ -142,4 +143,5 @@ set(supporting_headers
   firstcontact/record/run.h
   firstcontact/record/run_step.h
   firstcontact/page/page_numbers.h
+  firstcontact/page/path_look.h
   firstcontact/verification/proof_verdict.h)

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/page/path_look.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
@@ -76,6 +77,31 @@ TEST(WritePage, MarksTrianglesAroundACurvedBody) {
     EXPECT_NE(page_of(curved).find("\"smooth\":true"), std::string::npos) << curved;
   }
   EXPECT_EQ(page_of(R"({"box": {"size": [1, 1, 1]}})").find("smooth"), std::string::npos);
+  EXPECT_NE(page_of(R"({"box": {"size": [1, 1, 1]}, "radius": 0.1})").find("\"convex\":true"),
+            std::string::npos);
+}
+
+TEST(WritePage, HoldsAPathWithItsSearch) {
+  PathLook path{
+      .verdict = "proven",
+      .edges = {{.clearance = 0.25, .from = 0.0, .to = 0.5}, {.from = 0.5, .to = 1.0}},
+      .movers = {{.name = "a", .lines = {{{9, 0, 0}, {9, 1, 0}}, {{9, 1, 0}, {8, 1, 0}}}}},
+      .trees = {{.kind = "start", .places = 3, .edges = 2, .movers = {{.name = "a"}}}},
+      .blocked = {{{"a", "b"}, 7}}};
+  path.goal.push_back({.member = 0, .X_WM = {.position = {1, 2, 3}}});
+  const std::string page = write_page(kTemplate, scene_of_one_triangle(), "{}", {}, &path);
+  // Relative to (9, 0, 0): (0, 0, 0), (0, 1, 0); (0, 1, 0), (-1, 1, 0) in f32. Until 2 and 4.
+  EXPECT_NE(page.find(R"("path":{"verdict":"proven",)"
+                      R"("edges":[{"clearance":0.25,"t":[0,0.5]},{"clearance":null,"t":[0.5,1]}],)"
+                      R"("movers":[{"name":"a","origin":[9,0,0],"points":")"
+                      R"(AAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAACAvwAAgD8AAAAA",)"
+                      R"("until":"AgAAAAQAAAA="}],)"
+                      R"("trees":[{"kind":"start","places":3,"edges":2,"movers":)"
+                      R"([{"name":"a","origin":[0,0,0],"points":"","until":""}]}],)"
+                      R"("blocked":[{"pair":["a","b"],"count":7}],)"
+                      R"("goal":[{"body":0,"position":[1,2,3],"quaternion_wxyz":[1,0,0,0]}]})"),
+            std::string::npos)
+      << page;
 }
 
 TEST(ListPage, HoldsEachMeshOnceAndEachResultWordForWord) {

@@ -9,6 +9,7 @@
 
 #include <firstcontact/page/detail/page_meshes.h>
 #include <firstcontact/page/detail/page_robots.h>
+#include <firstcontact/page/detail/path_look_json.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene_files/detail/reports_json.h>
 #include <firstcontact/scene_files/detail/result_json.h>
@@ -125,10 +126,13 @@ JsonObject summary_of(std::string_view result) {
 }  // namespace
 
 std::string write_page(std::string_view page_template, const LoadedScene& loaded,
-                       std::string_view result, const GapChart& gap) {
+                       std::string_view result, const GapChart& gap, const PathLook* path) {
   JsonObject view = look_of(loaded);
   view.push_back({"gap", line_to_json(gap.samples)});
   view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
+  if (path != nullptr) {
+    view.push_back({"path", detail::path_look_json(*path)});
+  }
   return fill(page_template, data_of({.name = "result", .json = result}, std::move(view)));
 }
 

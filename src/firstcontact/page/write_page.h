@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/page/path_look.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/sample_gap.h>
 
@@ -36,10 +37,12 @@ struct GapChart {
 /// @param loaded         the scene of the result
 /// @param result         JSON, as write_result makes it
 /// @param gap            for the chart
+/// @param path           what is drawn of a planned path; null where the page plays none
 /// @throws std::invalid_argument if the template has no place for a result
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
-                                                      std::string_view result, const GapChart& gap);
+                                                      std::string_view result, const GapChart& gap,
+                                                      const PathLook* path = nullptr);
 
 /// A record other than a result that the viewer can show, such as a run.
 struct PageRecord {

@@ -11,7 +11,7 @@
 
 namespace firstcontact {
 
-/// What a planner grows.
+/// The kinds of trees that a planner grows.
 enum class SearchTreeKind {
   from_start,  ///< A tree whose root is the start.
   from_goals,  ///< One tree for each goal, all of them together.

@@ -14,7 +14,7 @@ namespace firstcontact::detail {
 
 class TimedEdges;
 
-/// What the trees in space and time led to.
+/// The outcome of a search with trees in space and time.
 struct TimedFound {
   std::vector<TimedPlace> path;   ///< From the time 0 to the duration; empty where there is none.
   std::vector<SearchTree> trees;  ///< The two trees, where they were to be kept.
