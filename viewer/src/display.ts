@@ -27,6 +27,10 @@ export class Display {
   /// Where bodies are cut; null where they are whole.
   readonly cut = new Signal<Cut | null>(null);
   readonly measure = new Signal(false);
+  /// The line of a planned path.
+  readonly path = new Signal(true);
+  /// The trees of a search.
+  readonly trees = new Signal(false);
   /// Indices of the bodies that are hidden.
   readonly hidden = new Signal<ReadonlySet<number>>(new Set());
   /// By index of a body, from 0 to 1; 1 of those that are not named.

@@ -35,6 +35,8 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     a: () => model.run && flip(display.forces),
     v: () => model.hasLooks && flip(display.looks),
     m: () => flip(display.measure),
+    r: () => model.path && !model.path.failed && flip(display.path),
+    b: () => model.path?.hasTrees && flip(display.trees),
     l: () => flip(player.loop),
     "+": () => player.window.zoom(player.t.value, 2),
     "-": () => player.window.zoom(player.t.value, 0.5),

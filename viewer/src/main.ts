@@ -22,6 +22,7 @@ import { helpDialog } from "./panels/help";
 import { jointContent } from "./panels/joint_chart";
 import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
+import { pathPanel } from "./panels/path";
 import { probePanel } from "./panels/probe";
 import { resultTable } from "./panels/result_table";
 import { runPanel } from "./panels/run";
@@ -46,13 +47,20 @@ const coarseStep = 1 / 100;
 const fineStep = 1 / 1000;
 const clickSlack = 4; // [px] A press that moves farther turns the view.
 
-function listenToClicks(view: SceneView): void {
+/// A click on an edge of a planned path goes to its start; another one is for the probe.
+function listenToClicks(view: SceneView, { path }: Model, player: Player): void {
   let down: PointerEvent | null = null;
   view.canvas.addEventListener("pointerdown", (event) => (down = event));
   view.canvas.addEventListener("pointerup", (event) => {
     const moved = down ? Math.hypot(event.x - down.x, event.y - down.y) : Infinity;
     if (moved <= clickSlack && event.button === 0) {
-      view.pick(event.x, event.y);
+      const edge = view.edgeAt(event.x, event.y);
+      const begin = edge === null ? undefined : path?.data.edges[edge]?.t[0];
+      if (begin === undefined) {
+        view.pick(event.x, event.y);
+      } else {
+        player.seek(begin);
+      }
     }
   });
 }
@@ -98,6 +106,7 @@ function start(model: Model, result: number | null = null): void {
   document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
   const display = new Display();
+  display.trees.value = model.path?.failed === true;
   const player = new Player(model.duration, model.contactTime, momentOf(location.hash) ?? 0);
   if (model.run && model.duration > shortRun) {
     player.speed.value = 1; // Real time.
@@ -168,6 +177,7 @@ function start(model: Model, result: number | null = null): void {
   const cards = [
     ...(model.result ? [summaryPanel(model, model.result)] : []),
     ...(model.run ? [runPanel(model, model.run)] : []),
+    ...(model.path ? [pathPanel(model.path, model.grain, player)] : []),
     warningsPanel(model),
     probePanel(view, display, player),
     ...(model.run
@@ -184,7 +194,7 @@ function start(model: Model, result: number | null = null): void {
   ].filter((card) => card !== null);
   stage.append(toolbar(model, commands, panelOpen), triad(view), verdictBadge(model, panelOpen));
   app.append(element("aside.panel", { "aria-label": "Details" }, ...cards));
-  app.append(transport(model, commands, chart.element), help);
+  app.append(...(model.isStill ? [] : [transport(model, commands, chart.element)]), help);
   panelOpen.subscribe((open) => app.classList.toggle("panel-open", open));
 
   theme.name.subscribe(() => view.setColors(theme.color("stage"), theme.color("grid")));
@@ -193,7 +203,7 @@ function start(model: Model, result: number | null = null): void {
   chart.start();
   setTimeout(() => view.addEdges());
   listenToKeys(model, commands);
-  listenToClicks(view);
+  listenToClicks(view, model, player);
   linkMoments(player, result);
   // For whoever embeds the page or asks it from the console.
   Object.assign(window, { firstcontact: { model, player, display, view } });

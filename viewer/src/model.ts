@@ -19,6 +19,7 @@ import type { Motion, Pose } from "./motion/motion";
 import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/robot";
 import { length, scale, unit, zero } from "./motion/vector";
 import { angleAlong, motionAlong } from "./motion/way";
+import { Path } from "./path";
 import { Run } from "./run";
 import { tiesOf, type Tie } from "./ties";
 
@@ -244,6 +245,10 @@ export class Model {
   readonly coordinates: readonly Coordinate[];
   readonly gap: GapLine;
   readonly gapBound: GapLine;
+  /// The planned path that is played, or the search that found none.
+  readonly path: Path | null;
+  /// Whether there is nothing to play.
+  readonly isStill: boolean;
   /// Those of every pair where the result has them, each at its own pair's time.
   readonly pairs: readonly PairAnswer[];
   /// The warnings for the user.
@@ -263,6 +268,7 @@ export class Model {
     this.duration = this.run?.duration ?? scene.options.duration;
     this.gap = page.gap;
     this.gapBound = page.gapBound;
+    this.path = page.path && new Path(page.path);
     const bodies = scene.bodies.map((data, index) =>
       bodyOf(data, index, page.meshes[page.bodies[index]!]!, scene.options.duration),
     );
@@ -273,12 +279,17 @@ export class Model {
     page.carried.forEach(({ body, stretches }) => {
       bodies[body] = carried(bodies[body]!, stretches, bodies);
     });
+    this.isStill = this.path?.failed === true && bodies.every(({ atRest }) => atRest);
+    page.path?.goal.forEach(({ body }) => {
+      bodies[body] = { ...bodies[body]!, kind: "planned", atRest: false };
+    });
     this.bodies = bodies;
     this.ties = run ? tiesOf(run, bodies) : [];
     this.robots = robots.map(({ name }) => name);
     this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
-    this.pairs = result?.pairs ?? [];
+    // The result of a search without a path is about what rests at the start.
+    this.pairs = this.path?.failed ? [] : (result?.pairs ?? []);
     this.pairCounts = page.pairCounts;
     this.files = page.files;
     this.warnings = [...(result?.warnings ?? []), ...page.warnings];
@@ -297,6 +308,9 @@ export class Model {
 
   /// t of the first contact; none where nothing touches, or nobody knows.
   get contactTime(): number | null {
+    if (this.path?.failed) {
+      return null;
+    }
     const touch = this.result?.verdict === "contact" || this.result?.verdict === "contact_at_start";
     return touch ? this.provenUntil : null;
   }
@@ -320,7 +334,7 @@ export class Model {
   }
 
   get contacts(): readonly Contact[] {
-    return this.result?.contacts ?? [];
+    return this.contactTime === null ? [] : (this.result?.contacts ?? []);
   }
 
   get triangleCount(): number {

@@ -63,6 +63,18 @@ export interface MadePage {
   readonly result: Result;
 }
 
+/// A path file, as docs/path_format.md has it.
+export interface PlannedPath {
+  readonly waypoints: readonly (readonly number[])[];
+  readonly edges: readonly { readonly clearance: number | null }[];
+}
+
+export interface MadePlan {
+  readonly url: string;
+  /// Null where none was found.
+  readonly path: PlannedPath | null;
+}
+
 export class Folder {
   private readonly path = mkdtempSync(join(tmpdir(), "firstcontact-"));
 
@@ -104,6 +116,26 @@ export class Folder {
       file,
       steps: lines.map((line) => JSON.parse(line) as RecordedStep),
     };
+  }
+
+  /// A page of a plan.
+  async plan(name: string, scene: object): Promise<MadePlan> {
+    const [file, answer, input] = [".html", ".json", ".scene.json"].map((end) =>
+      join(this.path, name + end),
+    ) as [string, string, string];
+    writeFileSync(input, JSON.stringify(scene));
+    await run(["plan", input, "--html", file, "-o", answer]);
+    const path = existsSync(answer)
+      ? (JSON.parse(readFileSync(answer, "utf8")) as PlannedPath)
+      : null;
+    return { url: `file://${file}`, path };
+  }
+
+  /// The page that `view` makes of a file of this folder.
+  async view(name: string): Promise<string> {
+    const page = join(this.path, `${name}.view.html`);
+    await run(["view", join(this.path, name), "--no-open", "-o", page]);
+    return `file://${page}`;
   }
 
   /// The page of a batch: one job a line, as objects or as text that is none.
@@ -187,6 +219,14 @@ declare global {
             instanceMatrix: { array: Float32Array };
           };
         } | null;
+        path: {
+          group: { position: PlaceOfPage };
+          line: { parent: { visible: boolean } };
+          waypoints: { geometry: GeometryOfPage };
+          trees: { visible: boolean; children: { name: string; geometry: GeometryOfPage }[] };
+        } | null;
+        ghosts: { group: { children: { matrix: { elements: number[] } }[] } };
+        edgeAt(x: number, y: number): number | null;
         camera: { position: { x: number; y: number; z: number } };
       };
     };
@@ -211,6 +251,9 @@ interface SurfaceOfPage {
   };
   /// As drawn: deformed.
   getVertexPosition(index: number, target: object): { toArray(): number[] };
+}
+interface GeometryOfPage {
+  attributes: { position: { count: number; array: Float32Array } };
 }
 interface MeshOfPage {
   origin: number[];

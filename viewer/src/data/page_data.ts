@@ -1,6 +1,7 @@
 /// The data that the tool writes into the page: a result or a run, and the meshes to draw it.
 
 import { bytesOf } from "./bytes";
+import { pathOf, type PathData, type StoredPath } from "./path_data";
 import type { FileReport, PairCounts } from "./reports";
 import type { Result, SceneData, Vector3 } from "./result";
 import type { CarriedData, RobotData } from "./robot_data";
@@ -43,6 +44,8 @@ export interface PageData {
   readonly gap: GapLine;
   /// The gap is proven to be nowhere below; may be empty.
   readonly gapBound: GapLine;
+  /// Null where the page plays no planned path.
+  readonly path: PathData | null;
 }
 
 export interface StoredMesh {
@@ -64,6 +67,7 @@ export interface StoredView {
   readonly files?: readonly FileReport[];
   readonly gap?: GapLine;
   readonly gap_bound?: GapLine;
+  readonly path?: StoredPath;
 }
 
 export interface StoredPage {
@@ -117,5 +121,6 @@ export function pageOf({ result, run, view }: StoredPage, meshes: readonly MeshD
     files: result?.files ?? view.files ?? [],
     gap: view.gap ?? noLine,
     gapBound: view.gap_bound ?? noLine,
+    path: view.path ? pathOf(view.path) : null,
   };
 }

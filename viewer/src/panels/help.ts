@@ -19,6 +19,7 @@ const keys: readonly (readonly [string, string])[] = [
   ["g o c", "ghosts, onion skin, contact points"],
   ["a", "contact forces of a run"],
   ["v", "what robots look like, in place of their collision geometry"],
+  ["r b", "a planned path, the tree of its search"],
   ["m", "measure: click two points"],
   ["l", "repeat"],
   ["+ - 0", "less of the time in the charts, more, all"],

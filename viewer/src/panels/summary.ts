@@ -11,6 +11,9 @@ import { verdictLine } from "./verdict";
 const one = { name: "", size: 1 };
 
 function sentence(model: Model, result: Result): string {
+  if (model.path?.failed) {
+    return "No path was found. The page shows the start, and the goal as a ghost.";
+  }
   const { duration, pairCounts } = model;
   const { verdict, pair, time, reason } = result;
   const until = timeText(time, 5, { grain: model.timeGrain(result), down: true });
@@ -30,6 +33,9 @@ function sentence(model: Model, result: Result): string {
 }
 
 function facts(model: Model, result: Result): [string, string][] {
+  if (model.path?.failed) {
+    return [];
+  }
   const { margin } = result.scene.options;
   const { grain } = model;
   const list: [string, string][] = [];
@@ -69,6 +75,6 @@ export function summaryPanel(model: Model, result: Result): HTMLElement {
     verdictLine(model),
     element("p", {}, sentence(model, result)),
     factList(facts(model, result)),
-    ...untestedPairs(model.pairCounts),
+    ...(model.path?.failed ? [] : untestedPairs(model.pairCounts)),
   );
 }

@@ -43,6 +43,10 @@ export function toolbar(
       : []),
     toggle(icons.marker, "Contact points", "c", display.contacts),
     ...(model.run ? [toggle(icons.force, "Contact forces", "a", display.forces)] : []),
+    ...(model.path && !model.path.failed
+      ? [toggle(icons.route, "Path, coloured by clearance", "r", display.path)]
+      : []),
+    ...(model.path?.hasTrees ? [toggle(icons.tree, "Search tree", "b", display.trees)] : []),
     toggle(icons.measure, "Measure a distance", "m", display.measure),
   );
   const page = element(

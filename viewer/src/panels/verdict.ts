@@ -19,7 +19,10 @@ interface Verdict {
   readonly text: string;
 }
 
-export function verdictOf({ result, run }: Model): Verdict {
+export function verdictOf({ result, run, path }: Model): Verdict {
+  if (path?.failed) {
+    return { kind: "undecided", text: "No path" };
+  }
   if (result) {
     return { kind: result.verdict, text: words[result.verdict] };
   }
@@ -30,9 +33,13 @@ export function verdictOf({ result, run }: Model): Verdict {
 }
 
 /// "98 pairs tested", "2 warnings"; a result of an earlier version does not count its pairs.
-function worth({ pairCounts, warnings }: Model): { pairs: string | null; warnings: string | null } {
+function worth({ pairCounts, warnings, path }: Model): {
+  pairs: string | null;
+  warnings: string | null;
+} {
   return {
-    pairs: pairCounts && `${counted(pairCounts.tested, "pair", "pairs")} tested`,
+    pairs:
+      pairCounts && !path?.failed ? `${counted(pairCounts.tested, "pair", "pairs")} tested` : null,
     warnings: warnings.length > 0 ? `⚠ ${counted(warnings.length, "warning", "warnings")}` : null,
   };
 }

@@ -2,6 +2,7 @@
 
 import { Group } from "three";
 import type { Body, BodyGeometry } from "../model";
+import type { Pose } from "../motion/motion";
 import type { DrawnShapes } from "./drawn_shape";
 import { deform, GeometryView, setPose, type Style } from "./geometry_view";
 
@@ -52,11 +53,11 @@ export class BodyView {
     this.pieces.forEach((piece) => piece.setStyle(style));
   }
 
-  /// A faint copy of the body at another moment.
-  ghost(t: number, opacity: number): Group {
+  /// A faint copy of the body at another moment, or at another pose.
+  ghost(t: number, opacity: number, pose: Pose = this.body.motion(t)): Group {
     const group = new Group();
     this.shownPieces.forEach((piece) => group.add(piece.ghost(t, opacity)));
-    setPose(group, this.body.motion(t));
+    setPose(group, pose);
     return group;
   }
 }

@@ -1,9 +1,10 @@
 /// Where things are, for cameras that look at them.
 
 import { Box3, Sphere, Vector3 } from "three";
+import type { GoalPose } from "../data/path_data";
 import type { Vector3 as Point } from "../data/result";
 import type { Body, BodyGeometry } from "../model";
-import { place } from "../motion/motion";
+import { place, poseOf, type Pose } from "../motion/motion";
 import { add, scale } from "../motion/vector";
 
 const moments = 33;
@@ -46,7 +47,11 @@ export const corners = (min: Vector3, max: Vector3): Vector3[] =>
 export class Bounds {
   private readonly corners: readonly Corners[];
 
-  constructor(private readonly bodies: readonly Body[]) {
+  /// @param goal  poses of bodies that are seen, too
+  constructor(
+    private readonly bodies: readonly Body[],
+    private readonly goal: readonly GoalPose[] = [],
+  ) {
     this.corners = bodies.map(({ geometries, looks }) => {
       const all = [...geometries, ...(looks ?? [])].map(cornersOf);
       return { from: all.flatMap(({ from }) => from), to: all.flatMap(({ to }) => to) };
@@ -94,11 +99,11 @@ export class Bounds {
         this.include(body, count > 1 ? (end * k) / (count - 1) : 0, box);
       }
     }
+    this.goal.forEach((pose) => this.include(this.bodies[pose.body]!, 0, box, poseOf(pose)));
     return box;
   }
 
-  private include(body: Body, t: number, box: Box3): void {
-    const pose = body.motion(t);
+  private include(body: Body, t: number, box: Box3, pose: Pose = body.motion(t)): void {
     const { from, to } = this.corners[body.index]!;
     from.forEach((p, k) => {
       const corner = add(scale(1 - t, p), scale(t, to[k]!));

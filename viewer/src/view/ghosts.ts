@@ -1,6 +1,8 @@
 /// Faint copies of the moving bodies: where they start and end, and between as an onion skin.
 
 import { Group } from "three";
+import type { GoalPose } from "../data/path_data";
+import { poseOf } from "../motion/motion";
 import type { BodyView } from "./body_view";
 import { dispose } from "./geometry_view";
 
@@ -8,11 +10,16 @@ const skins = 12;
 const mostTriangles = 3_000_000; // Of all skins together.
 const skinOpacity = 0.07;
 const endOpacity = 0.16;
+const goalOpacity = 0.3;
 
 export class Ghosts {
   readonly group = new Group();
 
-  constructor(private readonly views: readonly BodyView[]) {}
+  /// @param goal  poses of bodies that are always shown
+  constructor(
+    private readonly views: readonly BodyView[],
+    private readonly goal: readonly GoalPose[],
+  ) {}
 
   show(options: { ends: boolean; onion: boolean; hidden: ReadonlySet<number> }): void {
     dispose(this.group);
@@ -27,6 +34,10 @@ export class Ghosts {
       if (options.ends) {
         this.group.add(view.ghost(0, endOpacity), view.ghost(1, endOpacity));
       }
+    }
+    const visible = this.goal.filter(({ body }) => !options.hidden.has(body));
+    for (const pose of visible) {
+      this.group.add(this.views[pose.body]!.ghost(0, goalOpacity, poseOf(pose)));
     }
   }
 }

@@ -1,11 +1,8 @@
 /// The scene on the screen. Draws when something changed, and not otherwise.
 
 import {
-  AmbientLight,
   Box3,
   BufferGeometry,
-  DirectionalLight,
-  HemisphereLight,
   type Intersection,
   MOUSE,
   PerspectiveCamera,
@@ -42,7 +39,10 @@ import { edgeGeometry } from "./feature_edges";
 import { ForceMarkers } from "./force_view";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
+import { rangeFor, rangeTo } from "./framing";
 import { homeDirection } from "./home_view";
+import { addLights } from "./lights";
+import { PathView } from "./path_view";
 import { fieldOfView, type GeometryView, type Surface } from "./geometry_view";
 import { Probe, probePoint } from "./probe";
 import { TieMarkers } from "./tie_view";
@@ -59,6 +59,7 @@ export class SceneView {
   /// Of a run.
   readonly forces: ForceMarkers | null;
   readonly ties: TieMarkers | null;
+  readonly path: PathView | null;
   /// [ms] between the last frames while the picture moves.
   frameTime = 0;
   onFrame: (() => void) | null = null;
@@ -105,7 +106,8 @@ export class SceneView {
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN };
     this.flight = new CameraFlight(this.camera, this.controls.target);
 
-    this.bounds = new Bounds(model.bodies);
+    const goal = model.path?.data.goal ?? [];
+    this.bounds = new Bounds(model.bodies, goal);
     this.sweep = this.bounds.opening(model.firstTouch);
     const ends = model.ties.flatMap((tie) => tie.ends(0));
     ends.forEach((end) => this.sweep.expandByPoint(new Vector3(...end)));
@@ -115,7 +117,8 @@ export class SceneView {
     this.reach += 0.5 * this.whole.getSize(new Vector3()).length();
     this.grid = new Grid(this.sweep, this.camera.up);
     this.bodies = this.makeBodies();
-    this.ghosts = new Ghosts(this.bodies);
+    this.ghosts = new Ghosts(this.bodies, goal);
+    this.path = model.path && new PathView(model.path, this.home.center);
     this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.bodySize());
     this.ties =
       model.run && new TieMarkers(model.run, model.ties, this.home.center, this.bodySize());
@@ -126,10 +129,11 @@ export class SceneView {
       this.markers.group,
       ...(this.forces ? [this.forces.group] : []),
       ...(this.ties ? [this.ties.group] : []),
+      ...(this.path ? [this.path.group] : []),
       this.probe.group,
       this.camera,
     );
-    this.addLights();
+    addLights(this.scene, this.camera);
     this.showContacts(model.contacts, model.contactTime);
     this.listen();
   }
@@ -190,7 +194,7 @@ export class SceneView {
     const seen = corners(box.min, box.max);
     const target = box.getCenter(new Vector3());
     const direction = homeDirection(this.model);
-    const range = this.rangeFor(seen, target, direction);
+    const range = rangeFor(this.camera, seen, target, direction);
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
   }
 
@@ -224,7 +228,7 @@ export class SceneView {
     const around = new Sphere(middle, size);
     this.display.endOwnCut();
     if (open === undefined && !this.display.cut.value) {
-      const share = 0.5 * (1 - (0.25 * size) / this.rangeTo(around));
+      const share = 0.5 * (1 - (0.25 * size) / rangeTo(this.camera, around));
       this.display.cut.value = { along: "view", share, otherSide: false, byItself: true };
     }
     this.flyTo(around, open ?? sideViews(contact, toCamera)[0]);
@@ -257,6 +261,19 @@ export class SceneView {
 
   /// The nearest surface under a place of the window.
   hitAt(x: number, y: number): Intersection | undefined {
+    const ray = this.rayAt(x, y);
+    ray.params.Points.threshold = 0.005 * this.home.radius;
+    return ray
+      .intersectObjects(this.shownSurfaces(), false)
+      .find(({ distance, point }) => distance > this.camera.near && this.cut.keeps(point));
+  }
+
+  /// The edge of a planned path under a place of the window.
+  edgeAt(x: number, y: number): number | null {
+    return this.path?.edgeOn(this.rayAt(x, y)) ?? null;
+  }
+
+  private rayAt(x: number, y: number): Raycaster {
     const box = this.canvas.getBoundingClientRect();
     const at = new Vector2(
       (2 * (x - box.left)) / box.width - 1,
@@ -264,10 +281,7 @@ export class SceneView {
     );
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
-    ray.params.Points.threshold = 0.005 * this.home.radius;
-    return ray
-      .intersectObjects(this.shownSurfaces(), false)
-      .find(({ distance, point }) => distance > this.camera.near && this.cut.keeps(point));
+    return ray;
   }
 
   /// The point of a body under a place of the window.
@@ -322,20 +336,6 @@ export class SceneView {
     return bodies.map((body) => new BodyView(body, shapes, bodyColor(body, bodies)));
   }
 
-  /// A lamp above, one at the camera's shoulder, and light from everywhere.
-  private addLights(): void {
-    const key = new DirectionalLight(0xffffff, 1.5);
-    key.position.set(-0.5, 0.9, 1);
-    const fill = new DirectionalLight(0xcfe0ff, 0.5);
-    fill.position.set(1, -0.2, 0.3);
-    this.camera.add(key, key.target, fill, fill.target);
-    key.target.position.set(0, 0, -1);
-    fill.target.position.set(0, 0, -1);
-    const sky = new HemisphereLight(0xffffff, 0x667788, 0.9);
-    sky.position.copy(this.camera.up);
-    this.scene.add(sky, new AmbientLight(0xffffff, 0.25));
-  }
-
   private listen(): void {
     const { display, player } = this;
     player.t.subscribe((t) => this.showMoment(t));
@@ -366,6 +366,14 @@ export class SceneView {
       if (this.forces) {
         this.forces.arrows.visible = shown;
       }
+      this.requestFrame();
+    });
+    display.path.subscribe((shown) => {
+      this.path?.showPath(shown);
+      this.requestFrame();
+    });
+    display.trees.subscribe((shown) => {
+      this.path?.showTrees(shown);
       this.requestFrame();
     });
     display.hidden.subscribe((hidden) => {
@@ -423,33 +431,10 @@ export class SceneView {
     this.requestFrame();
   }
 
-  /// From where all of the points are seen, in a direction.
-  private rangeFor(points: readonly Vector3[], target: Vector3, direction: Vector3): number {
-    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
-    const up = new Vector3().crossVectors(direction, right);
-    const slope = Math.tan((0.5 * this.camera.fov * Math.PI) / 180);
-    const room = 1.12;
-    return Math.max(
-      ...points.map((point) => {
-        const d = point.clone().sub(target);
-        const across = Math.abs(d.dot(right)) / (slope * this.camera.aspect);
-        return d.dot(direction) + room * Math.max(across, Math.abs(d.dot(up)) / slope);
-      }),
-      1e-9,
-    );
-  }
-
-  /// From where a ball fills the picture.
-  private rangeTo({ radius }: Sphere): number {
-    const half = (0.5 * this.camera.fov * Math.PI) / 180;
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    return (1.08 * Math.max(radius, 1e-9)) / Math.sin(narrow);
-  }
-
   private flyTo(sphere: Sphere, direction?: Vector3): void {
     const toCamera =
       direction ?? this.camera.position.clone().sub(this.controls.target).normalize();
-    const range = this.rangeTo(sphere);
+    const range = rangeTo(this.camera, sphere);
     const target = sphere.center.clone();
     this.fly({ position: target.clone().addScaledVector(toCamera, range), target });
   }
