@@ -129,7 +129,7 @@ export function transport(model: Model, commands: Commands, chart: HTMLElement):
         iconButton(icons.forward, "Step forward", "→", () => commands.commands.step(1)),
         loop,
       ),
-      ...(model.result ? [contactButton(model, commands)] : []),
+      ...(model.result && !model.path?.failed ? [contactButton(model, commands)] : []),
       clock(model, commands),
       speedChoice(commands),
     ),

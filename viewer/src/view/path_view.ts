@@ -104,11 +104,12 @@ export class PathView {
       });
       geometry.setPositions(ends).setColors(colors);
     }
-    const look = { linewidth: lineWidth, vertexColors: true };
+    // Both count as transparent, so that the line is drawn over its own part behind bodies.
+    const look = { linewidth: lineWidth, vertexColors: true, transparent: true };
     this.line = new LineSegments2(geometry, new LineMaterial(look));
     const behind = new LineSegments2(
       geometry,
-      new LineMaterial({ ...look, transparent: true, opacity: hiddenOpacity, depthTest: false }),
+      new LineMaterial({ ...look, opacity: hiddenOpacity, depthTest: false, depthWrite: false }),
     );
     behind.raycast = () => {};
     this.waypoints = dots(waypointsOf(path.data.movers, middle));
