@@ -149,7 +149,8 @@ PlayedPath played(const PlannedPath& path) {
 ///
 /// @param asks_gap  whether the page has the gap over time and the closest approach
 /// @param draw  called with the scene that is played; null where the page draws no path
-void write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool has_times,
+/// @returns whether the page was written; not where it was stopped
+bool write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool has_times,
                        const std::function<PathLook(const LoadedScene&)>& draw) {
   Question question;
   question.closest = asks_gap;
@@ -160,7 +161,7 @@ void write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool 
   ManyBodiesWorkspace workspace;
   SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
   if (page.stop.stop_requested()) {
-    return;
+    return false;
   }
   if (!has_times) {
     forget_velocities(answer.loaded.limits);
@@ -174,6 +175,7 @@ void write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool 
   }
   write_file(page.file, write_page(page.viewer, answer.loaded, result, {answer.curve, bound},
                                    look ? &*look : nullptr));
+  return true;
 }
 
 }  // namespace
@@ -194,23 +196,23 @@ void write_motion_page(const MotionPage& page, Scene scene) {
   write_answer_page(page, std::move(scene), true, true, nullptr);
 }
 
-void write_path_page(const MotionPage& page, const PlannedPath& path, std::vector<TreeLook> trees) {
+bool write_path_page(const MotionPage& page, const PlannedPath& path, std::vector<TreeLook> trees) {
   PlayedPath played_path = played(path);
   const auto draw = [&](const LoadedScene& loaded) {
     PathLook look = drawn_path(path, played_path.times, loaded);
     look.trees = std::move(trees);
     return look;
   };
-  write_answer_page(page, std::move(played_path.scene), true, !path.times.empty(), draw);
+  return write_answer_page(page, std::move(played_path.scene), true, !path.times.empty(), draw);
 }
 
-void write_failure_page(const MotionPage& page, const ScenePlan& plan, const PlanResult& result) {
+bool write_failure_page(const MotionPage& page, const ScenePlan& plan, const PlanResult& result) {
   const auto draw = [&](const LoadedScene&) {
     PathLook look = drawn_failure(plan, result);
     look.trees = drawn_trees(plan, result.trees);
     return look;
   };
-  write_answer_page(page, plan.loaded.scene, false, true, draw);
+  return write_answer_page(page, plan.loaded.scene, false, true, draw);
 }
 
 }  // namespace firstcontact::app

@@ -46,10 +46,13 @@ void write_motion_page(const MotionPage& page, Scene scene);
 /// their lengths; then no velocity is beyond its limit.
 ///
 /// @param trees  of the search, to be drawn on demand
-void write_path_page(const MotionPage& page, const PlannedPath& path,
+/// @returns whether the page was written; not where it was stopped
+bool write_path_page(const MotionPage& page, const PlannedPath& path,
                      std::vector<TreeLook> trees = {});
 
 /// Writes the page of a search that found no path: the scene at the start, with the goal.
-void write_failure_page(const MotionPage& page, const ScenePlan& plan, const PlanResult& result);
+///
+/// @returns whether the page was written; not where it was stopped
+bool write_failure_page(const MotionPage& page, const ScenePlan& plan, const PlanResult& result);
 
 }  // namespace firstcontact::app

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -175,7 +176,7 @@ class Plan {
         std::fwrite(text.data(), 1, text.size(), stdout);
       }
     }
-    write_page_of(scene, result, path);
+    has_page_ = write_page_of(scene, result, path);
     if (!arguments_.json) {
       say(describe(scene, options, result, path));
     } else if (!path) {
@@ -187,22 +188,21 @@ class Plan {
                                                         : ExitStatus::contact;
   }
 
-  /// Writes the page of a path, or that of a search without one.
-  void write_page_of(const ScenePlan& scene, const PlanResult& result,
+  /// Writes the page of a path, or that of a search without one; returns whether it did.
+  bool write_page_of(const ScenePlan& scene, const PlanResult& result,
                      const std::optional<PlannedPath>& path) {
     if (arguments_.page.empty()) {
-      return;
+      return false;
     }
-    // Ctrl-C has ended the search, not the page.
+    // Where Ctrl-C has ended the search, it does not end the page, too.
+    std::stop_token stop = interrupt_.token();
     const MotionPage page{
-        .file = arguments_.page, .viewer = viewer_, .stop = {}, .doing = [this](const auto& what) {
-          progress_.doing("page: " + what);
-        }};
-    if (path) {
-      write_path_page(page, *path, drawn_trees(scene, result.trees));
-    } else {
-      write_failure_page(page, scene, result);
-    }
+        .file = arguments_.page,
+        .viewer = viewer_,
+        .stop = stop.stop_requested() ? std::stop_token() : stop,
+        .doing = [this](const std::string& what) { progress_.doing("page: " + what); }};
+    return path ? write_path_page(page, *path, drawn_trees(scene, result.trees))
+                : write_failure_page(page, scene, result);
   }
 
   [[nodiscard]] static std::string pair_name(const ScenePlan& scene, const BodyPair& pair) {
@@ -308,7 +308,7 @@ class Plan {
     if (path && !arguments_.output.empty()) {
       line("written", arguments_.output + "; `firstcontact verify` proves it again");
     }
-    if (!arguments_.page.empty()) {
+    if (has_page_) {
       line("page", arguments_.page);
     }
     return text;
@@ -320,6 +320,7 @@ class Plan {
   std::string source_;
   std::vector<OutputFile> outputs_;
   std::string viewer_;  // Only where a page is wanted.
+  bool has_page_ = false;
 };
 
 void require_one_plan(const Arguments& arguments) {

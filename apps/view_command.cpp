@@ -141,11 +141,10 @@ void write_page_of_path(const std::string& page, const std::string& path, const 
                         const OutputFile& output, const ReadingOptions& reading) {
   const PlannedPath planned = parse_planned_path(text, path, {.lenient = reading.lenient});
   require_no_input({output}, files_of(planned.scene));
-  const Interrupt interrupt;
   try {
     ShapeCache cache;
     (void)load_scene_of(planned, cache);  // Refuses a path of files that have changed.
-    write_path_page({.file = output.path, .viewer = page, .stop = interrupt.token()}, planned);
+    write_path_page({.file = output.path, .viewer = page}, planned);
   } catch (const std::invalid_argument& error) {
     throw ParseError(path, error.what());
   }

@@ -8,8 +8,10 @@ import json
 import math
 import pathlib
 import re
+import signal
 import struct
 import sys
+import time
 import unittest
 
 import plan_test
@@ -161,6 +163,28 @@ class PlanPage(tool_test.ToolTest):
         goal = {one["body"]: one for one in self.view_of("page.html")["path"]["goal"]}
         self.assertEqual(sorted(goal), [2, 3, 4])  # Bodies come first, then links; the base rests.
         self.assert_near(goal[3]["position"], [math.cos(2.5), math.sin(2.5), 0])
+
+    def test_shows_a_search_that_was_interrupted(self):
+        self.file("scene.json", plan_test.scene({**QUESTION, "time": 100}, [CORK, PEG]))
+        process = self.start("plan", "scene.json", "--html", "page.html")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        if process.returncode == -signal.SIGINT:
+            self.skipTest("the tool was not ready for the signal")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("when it was stopped", out)
+        self.assertIn("  page       page.html\n", out)
+        self.assertEqual(self.view_of("page.html")["path"]["verdict"], "none")
+
+    def test_draws_a_path_that_ends_before_its_goal(self):
+        result = self.plan(QUESTION, [CORK, PEG], "--time", "0.3", "--approximate", "-o", "path.json")
+        self.assertEqual(result.returncode, 3, result)
+        self.assertIn("  page       page.html\n", result.stdout)
+        path = json.loads((self.folder / "path.json").read_text())
+        shown = self.view_of("page.html")["path"]
+        self.assertEqual((shown["verdict"], shown["goal"]), ("approximate", []))
+        self.assert_near(lines(shown["movers"][0])[-1][-1], path["waypoints"][-1][:3])
 
     def test_views_a_path_file(self):
         self.assertEqual(self.plan(QUESTION, [WALL, PEG], "-o", "path.json").returncode, 0)

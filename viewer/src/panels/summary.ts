@@ -12,7 +12,8 @@ const one = { name: "", size: 1 };
 
 function sentence(model: Model, result: Result): string {
   if (model.path?.failed) {
-    return "No path was found. The page shows the start, and the goal as a ghost.";
+    const goal = model.path.data.goal.length > 0 ? ", and the goal as a ghost" : "";
+    return `No path was found. The page shows the start${goal}.`;
   }
   const { duration, pairCounts } = model;
   const { verdict, pair, time, reason } = result;
