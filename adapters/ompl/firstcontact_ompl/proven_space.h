@@ -16,6 +16,7 @@
 
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 #include <ompl/base/spaces/WrapperStateSpace.h>
@@ -38,9 +39,9 @@ class ChainedStateSpace : public ompl::base::WrapperStateSpace {
 /// A body has an SE3StateSpace: straight lines with slerp on both sides. Where its edges are screws
 /// it has a ScrewStateSpace. Joints have RealVectorStateSpaces, and SO2StateSpaces for those that
 /// go the short way round, in the order of the coordinates; several are joined by a
-/// CompoundStateSpace, whatever its weights. A ChainedStateSpace is read as the one that it wraps.
-/// All other spaces, those that derive from these among them, are refused: their edges may be other
-/// curves.
+/// CompoundStateSpace, whatever its weights. A planar joint may have an SE2StateSpace. A
+/// ChainedStateSpace is read as the one that it wraps. All other spaces, those that derive from
+/// these among them, are refused: their edges may be other curves.
 class OmplStates {
  public:
   /// @throws std::invalid_argument  names the type of the space, or the coordinate, that does not
@@ -176,7 +177,9 @@ class OmplStates {
 
   void add(const ompl::base::StateSpace& states, const ConfigurationSpace& places,
            const std::vector<std::size_t>& way = {}) {
-    if (typeid(states) == typeid(ompl::base::CompoundStateSpace)) {
+    // An SE2StateSpace is a compound of two numbers and an angle, with the edges of a compound.
+    if (typeid(states) == typeid(ompl::base::CompoundStateSpace) ||
+        typeid(states) == typeid(ompl::base::SE2StateSpace)) {
       const auto& compound = static_cast<const ompl::base::CompoundStateSpace&>(states);
       for (std::size_t k = 0; k < compound.getSubspaceCount(); ++k) {
         std::vector<std::size_t> further = way;
@@ -187,7 +190,7 @@ class OmplStates {
     }
     const bool turns = typeid(states) == typeid(ompl::base::SO2StateSpace);
     if (!turns && typeid(states) != typeid(ompl::base::RealVectorStateSpace)) {
-      refuse(states, "joints have RealVectorStateSpaces and SO2StateSpaces");
+      refuse(states, "joints have RealVectorStateSpaces, SO2StateSpaces and SE2StateSpaces");
     }
     const std::size_t count = turns ? 1 : states.getDimension();
     for (std::size_t k = 0; k < count; ++k) {
@@ -212,8 +215,23 @@ class OmplStates {
   bool is_wrapped_ = false;
 };
 
+/// Whether the only coordinates are those of a planar joint, in their order.
+inline bool is_planar(const ConfigurationSpace& places) {
+  const auto coordinates = places.coordinates();
+  if (coordinates.size() != 3 || places.mover_count() != 1) {
+    return false;
+  }
+  const std::size_t joint = coordinates[0].joint;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (coordinates[k].joint != joint || coordinates[k].index != k) {
+      return false;
+    }
+  }
+  return places.model().joints()[joint].type == JointType::planar && coordinates[2].turns_short;
+}
+
 /// The OMPL space of a space here, with its box or its limits as bounds: neighbouring joints with a
-/// long way share one RealVectorStateSpace.
+/// long way share one RealVectorStateSpace, and a planar joint alone has an SE2StateSpace.
 inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& places) {
   if (places.is_body()) {
     auto space = places.has_screws() ? std::make_shared<ScrewStateSpace>()
@@ -226,8 +244,18 @@ inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& place
     space->setBounds(bounds);
     return space;
   }
-  auto compound = std::make_shared<ompl::base::CompoundStateSpace>();
   const auto coordinates = places.coordinates();
+  if (is_planar(places)) {
+    auto plane = std::make_shared<ompl::base::SE2StateSpace>();
+    ompl::base::RealVectorBounds bounds(2);
+    for (unsigned int k = 0; k < 2; ++k) {
+      bounds.setLow(k, coordinates[k].lower);
+      bounds.setHigh(k, coordinates[k].upper);
+    }
+    plane->setBounds(bounds);
+    return plane;
+  }
+  auto compound = std::make_shared<ompl::base::CompoundStateSpace>();
   for (std::size_t k = 0; k < coordinates.size();) {
     if (coordinates[k].turns_short) {
       compound->addSubspace(std::make_shared<ompl::base::SO2StateSpace>(), 1.0);

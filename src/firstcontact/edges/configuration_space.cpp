@@ -188,6 +188,28 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
   return space;
 }
 
+ConfigurationSpace ConfigurationSpace::of_body_in_plane(const std::string& name, const Shape& shape,
+                                                        const Eigen::Vector2d& low,
+                                                        const Eigen::Vector2d& high, Motion base) {
+  RobotDescription description{.name = name,
+                               .links = {{.name = "base"}, {.name = "body"}},
+                               .joints = {{.name = "plane",
+                                           .type = JointType::planar,
+                                           .parent = "base",
+                                           .child = "body",
+                                           .axis = Eigen::Vector3d::UnitZ()}}};
+  description.links[1].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
+  const std::array<std::string, 3> names{"plane/x", "plane/y", "plane/theta"};
+  const auto at_rest = CoordinatePath::constant(0.0);
+  ConfigurationSpace space =
+      of_joints(RobotModel(std::move(description)), names,
+                {{"plane", PlanarPath{at_rest, at_rest, at_rest}}}, std::move(base));
+  space.set_limits(names[0], low.x(), high.x());
+  space.set_limits(names[1], low.y(), high.y());
+  return space;
+}
+
 ConfigurationSpace ConfigurationSpace::joined(std::span<const std::string> names,
                                               std::span<const ConfigurationSpace> spaces) {
   if (names.empty() || names.size() != spaces.size()) {

@@ -81,6 +81,19 @@ class FIRSTCONTACT_API ConfigurationSpace {
                                     const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                                     BodyEdges edges = BodyEdges::straight);
 
+  /// Makes the space of poses of a body that moves in a plane: OMPL's SE2StateSpace.
+  ///
+  /// The body is the link "body" of a robot of its own, behind a planar joint "plane" with the axis
+  /// z. The coordinates are plane/x, plane/y [m] and plane/theta [rad], which goes the short way.
+  ///
+  /// @param low, high  [m]  corners of the rectangle in which the origin stays, in the base's frame
+  /// @param base       the place of the plane in the world
+  /// @throws std::invalid_argument if the rectangle is empty or not finite, or the shape deforms
+  static ConfigurationSpace of_body_in_plane(const std::string& name, const Shape& shape,
+                                             const Eigen::Vector2d& low,
+                                             const Eigen::Vector2d& high,
+                                             Motion base = Motion::fixed());
+
   /// Makes the space in which several robots move at once: the coordinates of one after the other.
   ///
   /// @param names   of the robots; coordinates are called ROBOT/NAME
