@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +25,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "drawn_path.h"
+#include "failed_plan_json.h"
 #include "interrupt.h"
 #include "motion_page.h"
 #include "output_files.h"
@@ -168,6 +170,7 @@ class Plan {
     std::optional<PlannedPath> path;
     if (result.verdict != PlanVerdict::none) {
       path = planned_path(scene, options, result);
+      path->sources = path_sources(texts_of(scene));
       const std::string text = write_planned_path(*path) + '\n';
       if (!arguments_.output.empty()) {
         write_file(arguments_.output, text);
@@ -180,6 +183,7 @@ class Plan {
     if (!arguments_.json) {
       say(describe(scene, options, result, path));
     } else if (!path) {
+      say(failed_plan_json(scene, result));
       say_on_stderr(visible(describe_failure(scene, options, result)) + '\n');
     }
     flush_stdout();
@@ -203,6 +207,15 @@ class Plan {
         .doing = [this](const std::string& what) { progress_.doing("page: " + what); }};
     return path ? write_path_page(page, *path, drawn_trees(scene, result.trees))
                 : write_failure_page(page, scene, result);
+  }
+
+  /// The files of text that the scene was made of.
+  [[nodiscard]] std::vector<std::filesystem::path> texts_of(const ScenePlan& scene) const {
+    std::vector<std::filesystem::path> files = scene.loaded.scene.files_read;
+    if (!arguments_.scene.empty() && arguments_.scene != "-") {
+      files.insert(files.begin(), arguments_.scene);
+    }
+    return files;
   }
 
   [[nodiscard]] static std::string pair_name(const ScenePlan& scene, const BodyPair& pair) {

@@ -57,12 +57,14 @@ std::string lower_bound_text(double metres) {
   }
   const Unit unit = length_unit(metres);
   const double quantity = metres / unit.size;
-  // One unit of the last of four digits is taken off, as the nearest text is off by half of one.
-  const double digit = std::pow(10.0, std::floor(std::log10(quantity)) - 3.0);
   const std::string nearest = in_unit(metres, unit);
-  return std::stod(fmt::format("{:.4g}", quantity)) > quantity
-             ? in_unit(metres - digit * unit.size, unit)
-             : nearest;
+  const double shown = std::stod(fmt::format("{:.4g}", quantity));
+  if (!(shown > quantity)) {
+    return nearest;
+  }
+  // The nearest text is above by half of the last of its four digits, or less.
+  const double digit = std::pow(10.0, std::floor(std::log10(shown)) - 3.0);
+  return in_unit((shown - digit) * unit.size, unit);
 }
 
 std::string apart_text(double metres) {

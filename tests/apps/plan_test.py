@@ -386,8 +386,50 @@ class Plan(tool_test.ToolTest):
             self.assertEqual(result.returncode, 0, result)
             self.assertEqual(json.loads(result.stdout)["moves"]["joints"], joints)
         self.assert_refused_with(self.plan(*robot), "group_name", "SRDF")
+        # A goal of joints moves the whole group, too.
+        of_joints = {"group_name": "both", "goal_constraints": [{"joint_constraints": [
+            {"joint_name": "x", "position": 0.5}]}]}
+        self.file("request.json", of_joints)
+        found = json.loads(self.plan(*robot, "--srdf", "gantry.srdf", "--json").stdout)
+        self.assertEqual(found["moves"]["joints"], ["x", "z"])
+        self.assertEqual(found["goals"], [[0.5, 0]])
         self.file("request.json", {**request, "group_name": "left"})
         self.assert_refused_with(self.plan(*robot, "--srdf", "gantry.srdf"), "group_name", "lift, both", '"left"')
+
+    def test_its_path_is_refused_where_a_file_of_its_scene_has_changed(self):
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
+        self.assertEqual(self.plan("scene.json", "-o", "a.json").returncode, 0)
+        self.file("gantry.urdf", URDF)
+        self.file("room.yaml", "world: {collision_objects: [{id: post, header: {frame_id: base}, primitives: "
+                               "[{type: 1, dimensions: [0.1, 0.1, 0.1]}], primitive_poses: [{position: [9, 0, 0]}]}]}")
+        self.file("ask.yaml", "goal_constraints: [{joint_constraints: [{joint_name: x, position: 0.5}]}]")
+        asked = ("--robot", "gantry.urdf", "--environment", "room.yaml", "--request", "ask.yaml")
+        self.assertEqual(self.plan(*asked, "-o", "b.json").returncode, 0)
+        for path, names in (("a.json", ["scene.json"]), ("b.json", ["ask.yaml", "room.yaml"])):
+            sources = json.loads((self.folder / path).read_text())["sources"]
+            self.assertEqual(sorted(source["file"] for source in sources), names)
+            for name in names:
+                text = (self.folder / name).read_text()
+                self.file(name, text + " ")
+                result = self.run_tool("verify", path)
+                self.assertEqual(result.returncode, 2, result)
+                self.assertIn(f"{name} is not what it was", result.stderr)
+                (self.folder / name).unlink()
+                result = self.run_tool("verify", path)
+                self.assertEqual(result.returncode, 0, result)
+                self.assertIn(f"{name} is not found", result.stdout)
+                self.file(name, text)
+                self.assertEqual(self.run_tool("verify", path).returncode, 0)
+
+    def test_prints_json_without_a_path_too(self):
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "time": 0.2, "box": [[-1, -1, -1], [1, 1, 1]]}, [CLOSED, PEG]))
+        result = self.plan("scene.json", "--json")
+        self.assertEqual(result.returncode, 1, result)
+        found = json.loads(result.stdout)
+        self.assertEqual((found["firstcontact_plan"], found["verdict"]), (1, "none"))
+        self.assertEqual(found["blocked"][0]["pair"], ["closed", "peg"])
+        self.assertGreater(found["blocked"][0]["count"], 0)
+        self.assertGreater(found["statistics"]["nodes"], 0)
 
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))

@@ -100,8 +100,8 @@ class CommandLine(ToolTest):
         self.assertIn("its times are not used", helps["retime"])
         # What excludes another option says so in its text.
         self.assertNotIn("Excludes", helps["check"])
-        self.assertRegex(helps["check"], r"--visual +Takes links as they look, not their collision geometry; not with "
-                                         r"--visual-where-missing\n")
+        self.assertRegex(helps["check"], r"--visual +Uses the visual geometry of links in place of their collision geometry; "
+                                         r"not with --visual-where-missing\n")
 
     def test_names_what_it_writes(self):
         scene = self.file("s.json", scenes.FREE)

@@ -139,6 +139,53 @@ def test_checks_edges():
         checker.clearance(zero)
 
 
+def test_measures_the_clearance_along_edges():
+    wall = {"name": "wall", "shape": {"box": {"size": [2, 2, 1]}}, "pose": {"position": [0, 0, -0.5]}}
+    ball = {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, 1]}}
+    scene = {"firstcontact": 1, "bodies": [wall, ball], "plan": {"body": "ball", "goal": {"position": [0, 0, 2]}}}
+    checker = fc.EdgeChecker(fc.load_scene(scene))
+    starts, ends = [pose(0, 0, 1), pose(0, 0, 1)], [pose(0.5, 0, 0.35), pose(0, 0, 0)]
+    answers = checker.check(starts, ends, closest=True)
+    assert answers.free.tolist() == [True, False]
+    assert 0.25 - 2e-6 <= answers.clearance[0] <= 0.25
+    assert answers.fraction[1] == pytest.approx(0.9, abs=1e-3)
+    assert checker.check(starts, ends).free.tolist() == [True, False]
+    with pytest.raises(ValueError, match="as many"):
+        checker.check(starts, ends[:1], closest=True)
+
+
+def test_says_what_is_within_limits(tmp_path):
+    (tmp_path / "slide.urdf").write_text("""<robot name="slide"><link name="base"/><link name="tool"><collision>
+        <geometry><sphere radius="0.1"/></geometry></collision></link><joint name="x" type="prismatic">
+        <parent link="base"/><child link="tool"/><axis xyz="1 0 0"/><limit lower="-1" upper="2" effort="1"
+        velocity="1"/></joint></robot>""")
+    scene = {"firstcontact": 1, "robots": [{"name": "slide", "urdf": tmp_path / "slide.urdf"}],
+             "plan": {"robot": "slide", "goal": {"x": 1}}}
+    checker = fc.EdgeChecker(fc.load_scene(scene))
+    places = [[-1], [2], [2.1], [-50], [float("nan")]]
+    assert checker.within_limits(places).tolist() == [True, True, False, False, False]
+    assert checker.check([[-5]], [[5]]).free.all()
+    body = fc.EdgeChecker(fc.load_scene(SCENE))
+    assert body.within_limits([pose(0, 0, 0), [0, 0, 0, 2, 0, 0, 0]]).tolist() == [True, False]
+
+
+def test_plan_takes_margin_tolerance_and_tells_its_progress():
+    assert fc.plan(SCENE, margin=0.01).clearance.min() >= 0.01
+    assert json.loads(fc.plan(SCENE, tolerance=1e-5).json)["tolerance"] == 1e-5
+    closed = {**SCENE, "bodies": [{"name": "wall", "shape": {"box": {"size": [0.01, 9, 9]}}}, SCENE["bodies"][1]]}
+    closed["plan"] = {**SCENE["plan"], "box": [[-1, -1, -1], [1, 1, 1]]}
+    told = []
+    answer = fc.plan(closed, time=0.5, progress=lambda *done: told.append(done))
+    assert answer.verdict == "none" and len(told) > 2
+    assert all(0 <= seconds < 5 and nodes > 0 and cost is None for seconds, nodes, cost in told)
+
+    def fail(*_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        fc.plan(closed, time=60, progress=fail)
+
+
 def test_checks_from_many_threads():
     checker = fc.EdgeChecker(fc.load_scene(SCENE))
     random = np.random.default_rng(1)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -125,7 +127,8 @@ class HeldEdges {
   [[nodiscard]] std::size_t size() const { return plan_.plan.space.size(); }
   [[nodiscard]] const ScenePlan& plan() const { return plan_; }
 
-  py::object check(py::handle from, py::handle to, int threads) const {
+  /// @param closest  whether clearances are the proven least distances along the edges, one by one
+  py::object check(py::handle from, py::handle to, bool closest, int threads) const {
     require_threads(threads);
     const std::vector<Configuration> begins = places_from(from, "start", size());
     const std::vector<Configuration> ends = places_from(to, "end", size());
@@ -133,7 +136,7 @@ class HeldEdges {
     require_places_of(plan_.plan.space, ends, "end");
     const std::vector<EdgeAnswer> answers = [&] {
       const py::gil_scoped_release release;
-      return checker_.check(begins, ends, threads);
+      return closest ? check_closely(begins, ends) : checker_.check(begins, ends, threads);
     }();
     const auto count = static_cast<py::ssize_t>(answers.size());
     py::array_t<bool> is_free(count);
@@ -148,6 +151,16 @@ class HeldEdges {
       clearances.mutable_at(at) = or_nan(answers[k].clearance);
     }
     return tuple_of_planning("EdgeAnswers")(is_free, is_undecided, fractions, clearances);
+  }
+
+  /// Whether each place is within the limits of its joints, or a pose.
+  py::array within_limits(py::handle places) const {
+    const std::vector<Configuration> all = places_from(places, "places", size());
+    py::array_t<bool> within(static_cast<py::ssize_t>(all.size()));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      within.mutable_at(static_cast<py::ssize_t>(k)) = !plan_.plan.space.defect(all[k]);
+    }
+    return within;
   }
 
   /// [m]  The clearance at each place: 0 where it is not free, NaN where no pair is tested.
@@ -165,6 +178,18 @@ class HeldEdges {
   }
 
  private:
+  [[nodiscard]] std::vector<EdgeAnswer> check_closely(
+      const std::vector<Configuration>& begins, const std::vector<Configuration>& ends) const {
+    if (begins.size() != ends.size()) {
+      throw std::invalid_argument("expected as many begins of edges as ends");
+    }
+    std::vector<EdgeAnswer> answers;
+    for (std::size_t k = 0; k < begins.size(); ++k) {
+      answers.push_back(checker_.check_closely(begins[k], ends[k]));
+    }
+    return answers;
+  }
+
   ScenePlan plan_;
   EdgeChecker checker_;
 };
@@ -195,12 +220,32 @@ Planner planner_from(const std::string& word) {
   return static_cast<Planner>(found - kPlannerWords.begin());
 }
 
+/// Hands a planner's progress to Python.
+///
+/// @param stop  of the running query; an exception that the callback raises ends it
+std::function<void(const PlanProgress&)> plan_progress_of(const py::object& callback,
+                                                          QueryStop& stop) {
+  if (callback.is_none()) {
+    return {};
+  }
+  return [&callback, &stop](const PlanProgress& done) {
+    const py::gil_scoped_acquire acquire;
+    try {
+      callback(done.seconds, done.nodes, done.cost);
+    } catch (const py::error_already_set&) {
+      stop.fail(std::current_exception());
+    }
+  };
+}
+
 py::object plan(const HeldScene& scene, const std::optional<std::string>& planner,
                 const std::optional<std::string>& contacts,
                 const std::optional<std::uint64_t>& seed, const std::optional<double>& time,
-                std::size_t shortcuts, bool approximate, int threads,
+                const std::optional<double>& margin, const std::optional<double>& tolerance,
+                std::size_t shortcuts, bool approximate, int threads, const py::object& progress,
                 OrNone<std::stop_source> stop) {
   PlanQuestion question = question_of(scene);
+  question.margin = margin ? margin : question.margin;
   if (planner) {
     question.planner = planner_from(*planner);
   }
@@ -213,12 +258,15 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
   PlanOptions options;
   const PlanResult result = run_query(stop, [&](QueryStop& query) {
     ShapeCache cache;
-    made = make_scene_plan(scene.scene(), question, cache, query.token());
+    Scene asked = scene.scene();
+    asked.options.tolerance = tolerance.value_or(asked.options.tolerance);
+    made = make_scene_plan(std::move(asked), question, cache, query.token());
     options = made->options;
     options.shortcuts = shortcuts;
     options.approximate = approximate;
     options.threads = threads;
     options.stop = query.token();
+    options.progress = plan_progress_of(progress, query);
     return plan_path(made->plan, made->start, made->goals, options);
   });
   const ScenePlan& asked = *made;
@@ -232,14 +280,17 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
                                   member_name(asked.loaded.scene, blocking.members[1]),
                                   blocking.count));
   }
-  const bool has_path = result.verdict != PlanVerdict::none;
+  const auto text_of_path = [&] {
+    PlannedPath path = planned_path(asked, options, result);
+    path.sources = path_sources(asked.loaded.scene.files_read);
+    return write_planned_path(path);
+  };
   return tuple_of_planning("PlanAnswer")(
       kPlanVerdictWords.at(static_cast<std::size_t>(result.verdict)),
       rows_from(result.path, asked.plan.space.size()), owning(std::vector<double>(result.times)),
       owning(std::move(clearances)), result.cost, result.goal, result.distance_to_goal,
       py::tuple(blocked), py::tuple(py::cast(result.warnings)),
-      has_path ? py::object(py::str(write_planned_path(planned_path(asked, options, result))))
-               : py::none());
+      result.verdict != PlanVerdict::none ? py::object(py::str(text_of_path())) : py::none());
 }
 
 }  // namespace
@@ -273,17 +324,24 @@ one checker at a time.)")
           [](const HeldEdges& edges) { return rows_from(edges.plan().goals, edges.size()); },
           "The goals of the scene's plan, one per row.")
       .def("check", &HeldEdges::check, py::arg("start"), py::arg("end"), py::kw_only(),
-           py::arg("threads") = 0,
+           py::arg("closest") = false, py::arg("threads") = 0,
            R"(Checks edges, n×d numbers each: the k-th leads from start[k] to end[k].
 
-threads: at most; 0 for one on each core. Other threads of Python run meanwhile.)")
+The clearance of a free edge is its extra_clearance; with closest, the proven least distance of
+tested pairs along it, which takes longer and one thread. threads: at most; 0 for one on each core.
+Limits of joints do not count here: see within_limits. Other threads of Python run meanwhile.)")
+      .def("within_limits", &HeldEdges::within_limits, py::arg("places"),
+           R"(Says for each place whether its joints are within their limits.
+
+places: n×d numbers. For a body: whether it is a pose, with a quaternion of length 1.)")
       .def("clearance", &HeldEdges::clearances, py::arg("places"),
            R"(Computes [m] a proven lower bound of the distances of tested pairs at each place.
 
 places: n×d numbers. 0 where a place is not free; NaN where no pair is tested.)");
   m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("contacts"),
-        py::arg("seed"), py::arg("time"), py::arg("shortcuts"), py::arg("approximate"),
-        py::arg("threads"), py::arg("stop"));
+        py::arg("seed"), py::arg("time"), py::arg("margin"), py::arg("tolerance"),
+        py::arg("shortcuts"), py::arg("approximate"), py::arg("threads"), py::arg("progress"),
+        py::arg("stop"));
 }
 
 }  // namespace firstcontact::python

@@ -147,6 +147,18 @@ class MovedGroup {
     }
   }
 
+  /// The coordinates of the group, those of its followers' leaders in their place; empty where the
+  /// SRDF has no groups.
+  [[nodiscard]] std::vector<std::string> coordinates() const {
+    std::vector<std::string> names;
+    for (std::size_t joint = 0; group_ != nullptr && joint < robot_.joints().size(); ++joint) {
+      if (has(joint)) {
+        add_coordinates(joint, names);
+      }
+    }
+    return names;
+  }
+
   /// The coordinates of the group that move a link; empty where the request names no group.
   [[nodiscard]] std::vector<std::string> coordinates_above(const std::string& link) const {
     if (named_ == nullptr) {
@@ -269,6 +281,7 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
   if (constraints != nullptr) {
     detail::MessageState goal = read_joint_goal(*constraints, robot, group, read);
     result.goal = std::move(goal.positions);
+    result.joints = group.coordinates();
     fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
   } else {
     result.link_goal = detail::read_pose_constraints(wanted, robot, result.base, read);

@@ -57,7 +57,7 @@ struct PlanningRequest {
   JointPositions start;
   JointPositions goal;  ///< Positions at the goal. Joints that it does not name keep their start.
   std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
-  /// The joints of `group_name` that move this link; empty where there is no group.
+  /// The coordinates of `group_name`; for a link those that move it. Empty where there is no group.
   std::vector<std::string> joints = {};
   double velocity_scaling = 1.0;           ///< [-]  Factor of the velocity limits; in (0, 1].
   double acceleration_scaling = 1.0;       ///< [-]  Factor of the acceleration limits; in (0, 1].

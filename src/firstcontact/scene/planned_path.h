@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ struct NamedContactPair {
   PathEnd at = PathEnd::start;
   /// [m]  The pair is farther apart than this where the policy takes the place of its margin.
   double distance = 0.0;
+};
+
+/// A file of text from which the scene of a path was made, such as a planning scene.
+struct PathSource {
+  std::filesystem::path file;  ///< As it was opened.
+  std::string digest;          ///< SHA-256, in hexadecimal.
 };
 
 /// How a path was found; see docs/path_format.md.
@@ -80,6 +87,7 @@ struct PlannedPath {
   ///
   /// Its text_digest is that of the text from which the path was planned.
   Scene scene = {};
+  std::vector<PathSource> sources = {};  ///< Files of text of the scene, where they are known.
   std::string version = {};
   std::string input_digest = {};  ///< SHA-256 of everything read, in hexadecimal.
 };

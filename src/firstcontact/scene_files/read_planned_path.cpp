@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -61,7 +63,8 @@ class PathReader {
                                "version",
                                "scene_digest",
                                "resolved_digest",
-                               "input_digest"}});
+                               "input_digest",
+                               "sources"}});
     require_own_scene(root);
     path.is_proven = read_.word(read_.member(root, "verdict"), {{"proven", "approximate"}}) == 0;
     take_mover(read_.member(root, "moves"), path);
@@ -85,6 +88,7 @@ class PathReader {
     if (path.input_digest.size() != 64) {
       read_.fail_expected("a SHA-256 in hexadecimal", read_.member(root, "input_digest"));
     }
+    take_sources(root, path);
   }
 
  private:
@@ -93,6 +97,16 @@ class PathReader {
     if (string_of(digest) != detail::sha256(detail::write_json(read_.member(root, "scene")))) {
       read_.fail(digest,
                  "the scene in the path is not the one that it was planned in; plan it again");
+    }
+  }
+
+  void take_sources(const JsonValue& root, PlannedPath& path) const {
+    const JsonValue* sources = find(std::get<JsonObject>(root.value), "sources");
+    for (const JsonValue& source :
+         sources == nullptr ? JsonArray() : read_.array(*sources, "files of text")) {
+      (void)read_.object(source, {{"file", "sha256"}});
+      path.sources.push_back(
+          {string_of(read_.member(source, "file")), string_of(read_.member(source, "sha256"))});
     }
   }
 
@@ -323,6 +337,25 @@ void require_format(const JsonValue& root, const JsonReader& read) {
   }
 }
 
+/// Requires that the files of text are those from which the path was planned. The scene stands in
+/// the path, so a missing file is only a warning.
+std::vector<std::string> check_sources(const PlannedPath& path) {
+  std::vector<std::string> warnings;
+  for (const PathSource& source : path.sources) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(source.file, error)) {
+      warnings.push_back(source.file.string() +
+                         " is not found, so it is not known whether it has changed");
+    } else if (detail::sha256(detail::read_file(source.file, "a file of the path")) !=
+               source.digest) {
+      throw std::invalid_argument(source.file.string() +
+                                  " is not what it was when the path was planned; restore the "
+                                  "file, or plan again");
+    }
+  }
+  return warnings;
+}
+
 }  // namespace
 
 PlannedPath parse_planned_path(std::string_view text, const std::filesystem::path& source,
@@ -343,12 +376,14 @@ PlannedPath read_planned_path(const std::filesystem::path& file, const ReadingOp
 }
 
 LoadedScene load_scene_of(const PlannedPath& path, ShapeCache& cache) {
+  const std::vector<std::string> warnings = check_sources(path);
   LoadedScene loaded = load_scene(path.scene, cache);
   if (loaded.input_digest != path.input_digest) {
     throw std::invalid_argument(
         "a mesh or robot file of its scene is not what it was when the path was planned; restore "
         "the file, or plan again");
   }
+  loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
   return loaded;
 }
 

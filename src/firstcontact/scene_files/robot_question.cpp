@@ -50,6 +50,7 @@ class SceneBuilder {
       add_environment(file, robot);
     }
     if (goal_) {  // The goal begins where the environment has the joints that nothing else moves.
+      keep_the_rest_of_the_group(robot);
       robot.trajectory =
           straight_motion(robot.model, robot.state, *goal_, turning(), velocity_scaling_);
     }
@@ -141,6 +142,7 @@ class SceneBuilder {
     velocity_scaling_ = request.velocity_scaling;
     if (!request.link_goal) {
       goal_ = request.goal;
+      group_ = request.joints;
     } else if (question_.plans) {
       scene_.plan =
           PlanQuestion{.robots = {0}, .joints = request.joints, .link_goals = {*request.link_goal}};
@@ -151,6 +153,17 @@ class SceneBuilder {
     }
     scene_.id = question_.request.filename().string();
     add_warnings(request.warnings);
+  }
+
+  /// Gives joints of a request's group that its goal does not name a goal where they start. So a
+  /// plan may move them.
+  void keep_the_rest_of_the_group(const SceneRobot& robot) {
+    for (const std::string& name : question_.plans ? group_ : std::vector<std::string>()) {
+      const auto found = robot.state.find(name);
+      const Joint& joint = robot.model.joints()[find_coordinate(robot.model, name).joint];
+      goal_->try_emplace(name,
+                         found != robot.state.end() ? found->second : default_position(joint));
+    }
   }
 
   /// The way of motions between states.
@@ -392,6 +405,7 @@ class SceneBuilder {
   std::map<std::size_t, std::string> ids_;  // Ids of bodies that come from planning scenes.
   std::filesystem::path around_;
   std::optional<JointPositions> goal_;  // Goal of a straight motion.
+  std::vector<std::string> group_;      // Coordinates of the group of a request.
   double velocity_scaling_ = 1.0;       // [-]  Of that motion.
   std::optional<double> around_duration_;
   bool states_duration_ = false;  // Whether a duration is stated; else the motions span any

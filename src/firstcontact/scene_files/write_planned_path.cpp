@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@
 #include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_file.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
@@ -123,6 +125,15 @@ JsonValue statistics_of(const PlannedPathStatistics& statistics) {
                               {"blocked", {.value = std::move(blocked)}}}};
 }
 
+JsonValue sources_of(const PlannedPath& path) {
+  JsonArray sources;
+  for (const PathSource& source : path.sources) {
+    sources.push_back({.value = JsonObject{{"file", text_of(source.file.string())},
+                                           {"sha256", text_of(source.digest)}}});
+  }
+  return {.value = std::move(sources)};
+}
+
 }  // namespace
 
 std::string write_planned_path(const PlannedPath& path) {
@@ -154,6 +165,9 @@ std::string write_planned_path(const PlannedPath& path) {
                     {"scene_digest", text_of(path.scene.text_digest)},
                     {"resolved_digest", text_of(resolved_digest)},
                     {"input_digest", text_of(path.input_digest)}};
+  if (!path.sources.empty()) {
+    object.push_back({"sources", sources_of(path)});
+  }
   const auto before = [&](const char* key) {
     return std::find_if(object.begin(), object.end(),
                         [&](const auto& member) { return member.key == key; });
@@ -165,6 +179,16 @@ std::string write_planned_path(const PlannedPath& path) {
     object.insert(before("goals"), {"contact_pairs", contact_pairs_of(path)});
   }
   return detail::write_json({.value = std::move(object)});
+}
+
+std::vector<PathSource> path_sources(const std::vector<std::filesystem::path>& files) {
+  std::vector<PathSource> sources;
+  for (const std::filesystem::path& file : files) {
+    if (std::ranges::find(sources, file, &PathSource::file) == sources.end()) {
+      sources.push_back({file, detail::sha256(detail::read_file(file, "a file of the scene"))});
+    }
+  }
+  return sources;
 }
 
 }  // namespace firstcontact

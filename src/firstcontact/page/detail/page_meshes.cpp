@@ -59,7 +59,9 @@ std::size_t PageMeshes::append(const Shape& shape) {
   if (shape.is_curved()) {
     mesh.push_back({"smooth", {.value = true}});
   }
-  if (shape.radius() > 0.0 && shape.convex_set() != nullptr) {
+  // Spheres and capsules have one triangle, of equal corners.
+  const bool is_solid = shape.mesh().triangles.size() > 1;
+  if (is_solid && shape.radius() > 0.0 && shape.convex_set() != nullptr) {
     mesh.push_back({"convex", {.value = true}});
   }
   meshes_.push_back({.value = std::move(mesh)});

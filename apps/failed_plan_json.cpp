@@ -1,0 +1,36 @@
+#include "failed_plan_json.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+
+namespace firstcontact::app {
+
+std::string failed_plan_json(const ScenePlan& scene, const PlanResult& result) {
+  using Json = nlohmann::ordered_json;
+  const PlanStatistics& counts = result.statistics;
+  Json blocked = Json::array();
+  for (const BlockingPair& blocking : counts.blocked) {
+    const auto name = [&](std::size_t side) {
+      return member_name(scene.loaded.scene, blocking.members.at(side));
+    };
+    blocked.push_back({{"pair", Json::array({name(0), name(1)})}, {"count", blocking.count}});
+  }
+  const Json object{{"firstcontact_plan", 1},
+                    {"verdict", "none"},
+                    {"blocked", std::move(blocked)},
+                    {"statistics",
+                     {{"seconds", counts.seconds},
+                      {"nodes", counts.nodes},
+                      {"edges_checked", counts.edges_checked},
+                      {"states_checked", counts.states_checked},
+                      {"undecided", counts.undecided}}}};
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace firstcontact::app
