@@ -65,6 +65,39 @@ all.push({
   joint: "contacts",
   t: 0.62,
 });
+// Paths, with the search behind them.
+const plan = (...options) => ({ plan: options, size: [1120, 700] });
+const bookshelf = "data/planning_mbm/bookshelf_small_panda";
+all.push(
+  {
+    name: "nut_off_bolt",
+    ...plan("demo/plans/nut_off_bolt.json"),
+    theme: "light",
+    keys: ["2"],
+    t: 0.5,
+  },
+  { name: "bug_trap", ...plan("examples/scenes/bug_trap.json"), theme: "dark", keys: ["x", "b"] },
+  {
+    name: "panda_plan",
+    ...plan(
+      ...["--robot", `${panda}/urdf/panda.urdf`, "--srdf", `${panda}/srdf/panda.srdf`],
+      ...["--environment", `${bookshelf}/scene0056.yaml`],
+      ...["--request", `${bookshelf}/request0056.yaml`],
+    ),
+    theme: "light",
+    keys: ["b"],
+    nearer: 1,
+    t: 0.4,
+  },
+  { name: "two_pandas", ...plan("demo/plans/two_pandas.json"), theme: "light", t: 0.5 },
+  {
+    name: "cart_and_door",
+    ...plan("demo/plans/cart_and_door.json"),
+    theme: "dark",
+    keys: ["b"],
+    t: 0.4,
+  },
+);
 const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
 const folder = mkdtempSync(join(tmpdir(), "firstcontact-"));
@@ -78,8 +111,12 @@ const browser = await chromium.launch({
   ],
 });
 
-function makePage({ name, question, simulation, session, law }) {
+function makePage({ name, question, simulation, session, law, plan }) {
   const page = join(folder, `${name}.html`);
+  if (plan !== undefined) {
+    execFileSync(tool, ["plan", ...plan, "-o", join(folder, `${name}.json`), "--html", page]);
+    return page;
+  }
   if (law !== undefined) {
     execFileSync("python3", ["demo/simulations/make_laws.py", folder]);
     return makePage({ name, simulation: [join(folder, `${law}.json`)] });
