@@ -8,15 +8,11 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptic_devices/browser_device.h>
-#include <firstcontact/haptic_devices/recording.h>
-#include <firstcontact/haptic_devices/simulated_operator.h>
 #include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
@@ -28,8 +24,7 @@
 #include <firstcontact/text/parse_error.h>
 
 #include "begun_file.h"
-#include "command_line_file.h"
-#include "command_line_number.h"
+#include "haptic_arguments.h"
 #include "haptic_device_choice.h"
 #include "haptic_live.h"
 #include "haptic_plot.h"
@@ -39,99 +34,16 @@
 #include "progress.h"
 #include "run_file.h"
 #include "standard_streams.h"
+#include "step_devices.h"
 #include "terminal_text.h"
 #include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
 
-constexpr double kDuration = 10.0;      // [s]
-constexpr double kLiveDuration = 60.0;  // [s]  With a device that a hand moves.
-
-struct Arguments {
-  std::string scene;
-  std::vector<std::string> devices;
-  std::string run;
-  std::string ticks;
-  std::string cycles;
-  std::string timing;
-  std::string plot;
-  std::string page;
-  std::optional<double> duration;  // [s]
-  std::optional<double> latency;   // [s]
-  std::optional<double> radius;    // [m]
-  std::optional<double> speed;     // [m/s]
-  std::size_t seed = 1;
-  bool wall = false;
-  bool force = false;
-};
-
-std::vector<OutputFile> outputs_of(const Arguments& arguments) {
-  return {{"-o", arguments.run},          {"--ticks", arguments.ticks},
-          {"--cycles", arguments.cycles}, {"--timing", arguments.timing},
-          {"--plot", arguments.plot},     {"--html", arguments.page}};
-}
-
-/// The devices before they are opened.
-struct NamedDevices {
-  std::vector<DeviceChoice> choices;
-  double duration = kDuration;  // [s]  Of the longest recording, if any: its last sample is held.
-  bool on_the_wall = false;     // By request, or because a hand moves one of them.
-};
-
-NamedDevices read_devices(const Arguments& arguments) {
-  NamedDevices named;
-  named.on_the_wall = arguments.wall;
-  double longest = 0.0;
-  bool has_mouse = false;
-  for (const std::string& word : arguments.devices) {
-    const DeviceChoice& choice = named.choices.emplace_back(read_device_choice(word));
-    if (const auto* recording = std::get_if<Recording>(&choice)) {
-      if (!arguments.duration) {
-        longest = std::max(longest, duration_of_recording(word, *recording));
-      }
-    } else if (is_live(choice)) {
-      const bool is_mouse = std::holds_alternative<BrowserDeviceOptions>(choice);
-      if (is_mouse && std::exchange(has_mouse, true)) {
-        throw std::invalid_argument(
-            "--device mouse moves one tool; name another device for the "
-            "second tool, such as simulated");
-      }
-      named.on_the_wall = true;
-      named.duration = kLiveDuration;
-    }
-    if (named.on_the_wall && arguments.latency) {
-      throw std::invalid_argument(fmt::format(
-          "--latency is for virtual time, but {} runs on the wall clock; leave one of them out",
-          is_live(choice) ? "--device " + word : "--wall"));
-    }
-  }
-  named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
-  return named;
-}
-
-/// The options of a hand that knows nothing of the scene: it goes anywhere around the tool.
-SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const HapticTool& tool,
-                                        const DeviceMapping& mapping, double duration,
-                                        std::size_t number) {
-  RandomPathOptions path;
-  path.seed = arguments.seed + 1000 * number;
-  const double reach = tool.shape.bounds().reach + tool.shape.radius();
-  path.radius = radius_of_hand(arguments.radius.value_or(2.0 * reach), mapping.scale);
-  path.fastest = arguments.speed.value_or(1.0);
-  path.slowest = std::min(path.slowest, path.fastest);
-  path.centre = mapping.X_DH;
-  path.count = static_cast<std::size_t>(std::clamp(20.0 * duration, 10.0, 1e6));
-  SimulatedOperatorOptions options;
-  options.path = random_via_points(path);
-  options.seed = path.seed;
-  options.fingers.grips = grips_of_device(mapping);
-  return options;
-}
-
 class HapticsRun {
  public:
-  explicit HapticsRun(const Arguments& arguments)
+  explicit HapticsRun(const HapticArguments& arguments)
       : arguments_(arguments),
         named_(read_devices(arguments)),
         loaded_(load()),
@@ -280,6 +192,9 @@ class HapticsRun {
   void take(const ForceTick& tick) {
     begin_ns_ = report_.ticks() == 0 ? tick.time_ns : begin_ns_;
     report_.add(tick, setup_.scene.tools.size());
+    if (run_file_ || page_) {
+      step_devices_.add(tick.time_ns, record_->devices(tick));
+    }
     if (live_ && live_->is_due(tick)) {
       mouse_->show(live_->picture(tick));
     }
@@ -305,7 +220,7 @@ class HapticsRun {
       cycles_->write(haptic_cycle_line(cycle, time_ns));
     }
     if (run_file_ || page_) {
-      const RunStep step = record_->step(cycle);
+      const RunStep step = record_->step(cycle, step_devices_.at(time_ns));
       if (run_file_) {
         run_file_->write(step);
       }
@@ -409,7 +324,7 @@ class HapticsRun {
 
   const Interrupt interrupt_;  // First, as other threads inherit its block of signals.
   Progress progress_;
-  const Arguments& arguments_;
+  const HapticArguments& arguments_;
   NamedDevices named_;
   LoadedScene loaded_;
   HapticSetup setup_;
@@ -417,6 +332,7 @@ class HapticsRun {
   std::vector<Device*> pointers_;
   std::array<Pose, kMostTools> god_objects_ = {};
   std::optional<HapticRun> record_;
+  StepDevices step_devices_;
   std::optional<RunPage> page_;
   std::string template_;  // Template of the page.
   std::optional<RunFile> run_file_;
@@ -435,63 +351,13 @@ class HapticsRun {
   bool is_stopped_ = false;
 };
 
-constexpr const char* kFooter = R"(
-SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices, one --device each.
-DEVICE is one of these (docs/haptic_devices.md):
-  FILE.csv                    a recording
-  simulated                   a hand that moves at random, on a device without weight
-  mouse[=PORT]                the mouse, on a page that this command serves to this machine only
-  spacemouse[=SOCKET]         a SpaceMouse through spacenavd
-  haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
-  plugin=FILE[,SETTINGS]      another device, by a shared library
-The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
-hardware. In virtual time the same command gives the same files.
-RUN, the output file, holds the motion of the tools. `firstcontact verify RUN` proves with other
-code that no tool passed through a body, between ticks too. `firstcontact view RUN` plays it.
-
-Exit status: 0 done; 2 bad input; 3 stopped early, or moving bodies had to wait for a tool.)";
-
 }  // namespace
 
 void add_haptics_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
       "haptics", "Moves tools by haptic devices, with forces; no tool passes through a body");
-  auto arguments = std::make_shared<Arguments>();
-  command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
-      ->required();
-  command
-      ->add_option(
-          "--device", arguments->devices,
-          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; one per tool")
-      ->required()
-      ->expected(1)
-      ->type_name("DEVICE")
-      ->take_all();
-  CLI::Option* run = add_file(*command, "-o,--output", arguments->run,
-                              "Records the motion of the tools: JSON Lines, one line per cycle");
-  add_file(*command, "--ticks", arguments->ticks,
-           "Writes each tick: device, target, force, faults (.csv)");
-  add_file(*command, "--cycles", arguments->cycles, "Writes each cycle of the contact loop (.csv)");
-  add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
-  add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
-  add_number(*command, "--duration", arguments->duration, Range::positive,
-             "[s] Time to run. Default: 0.1 more than the longest recording, whose last sample is "
-             "held. 60 with a device in a user's hand; 10 with a simulated one");
-  add_number(*command, "--latency", arguments->latency, Range::not_negative,
-             "[s] Time of one cycle of the contact loop, in virtual time");
-  add_number(*command, "--radius", arguments->radius, Range::positive,
-             "[m] Reach of the simulated hand from the start. Default: twice the distance from the "
-             "middle of the tool to its farthest point");
-  add_number(*command, "--speed", arguments->speed, Range::positive,
-             "[m/s] Greatest mean speed of a stroke of the simulated hand; 1 by default");
-  add_count(*command, "--seed", arguments->seed, "Seed of the motion of the simulated hand");
-  CLI::Option* wall =
-      command->add_flag("--wall", arguments->wall,
-                        "Runs both loops as threads on the wall clock, not in virtual time");
-  add_file(*command, "--timing", arguments->timing, "Writes histograms of all ticks (.csv)")
-      ->needs(wall);
-  command->add_flag("--force", arguments->force, "Replaces the output file")->needs(run);
-  command->footer(kFooter);
+  auto arguments = std::make_shared<HapticArguments>();
+  add_haptic_options(*command, *arguments);
   command->callback([arguments, &status] { status = HapticsRun(*arguments).run(); });
 }
 

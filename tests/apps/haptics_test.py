@@ -59,8 +59,24 @@ class Haptics(tool_test.ToolTest):
         self.assertEqual(len(ticks), 2000)
         self.assertEqual([int(tick["time_ns"]) for tick in ticks[:3]], [0, 250000, 500000])
         self.assertLessEqual(max(float(tick["command_fz"]) for tick in ticks), 10.0)
-        self.assertEqual(len((self.folder / "cycles.csv").read_text().splitlines()), 501)
+        with open(self.folder / "cycles.csv", encoding="utf-8") as file:
+            cycles = list(csv.DictReader(file))
+        self.assertEqual(len(cycles), 500)
+        self.assert_devices_are_those_of_ticks(ticks, cycles)
         self.assertTrue((self.folder / "plot.svg").read_text().startswith("<svg"))
+
+    def assert_devices_are_those_of_ticks(self, ticks, cycles):
+        """Each step of the record has the device of the tick that its cycle followed. Gives the forces."""
+        tick_at = {tick["time_ns"]: tick for tick in ticks}
+        steps = [json.loads(line) for line in (self.folder / "run.jsonl").read_text().splitlines()[1:]]
+        self.assertEqual(len(steps), len(cycles))
+        for cycle, step in zip(cycles, steps):
+            (device,), tick = step["devices"], tick_at[cycle["time_ns"]]
+            self.assertEqual(device["body"], 1)
+            for key, row in (("position", "target_p"), ("force", "force_"), ("torque", "torque_")):
+                for axis, value in zip("xyz", device[key]):
+                    self.assertAlmostEqual(value, float(tick[row + axis]), delta=1e-6 * max(1, abs(value)))
+        return [step["devices"][0]["force"] for step in steps]
 
     def test_is_the_same_on_every_run(self):
         self.file("scene.json", scene())
@@ -219,11 +235,17 @@ class Haptics(tool_test.ToolTest):
     def test_runs_on_the_wall(self):
         self.file("scene.json", scene())
         result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1", "--wall",
-                               "-o", "run.jsonl", "--timing", "timing.csv")
+                               "-o", "run.jsonl", "--timing", "timing.csv", "--ticks", "ticks.csv",
+                               "--cycles", "cycles.csv")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("SCHED_FIFO", result.stdout)
         self.assertIn("empty loop", result.stdout)
         self.assertIn("tick_cpu", (self.folder / "timing.csv").read_text())
+        tables = []
+        for name in ("ticks.csv", "cycles.csv"):
+            with open(self.folder / name, encoding="utf-8") as file:
+                tables.append(list(csv.DictReader(file)))
+        self.assert_devices_are_those_of_ticks(*tables)
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
 
     def felt_by(self, device, *arguments):
@@ -249,11 +271,15 @@ class Haptics(tool_test.ToolTest):
         for is_since_3_5 in (False, True):
             service = haptic_services.InverseService(is_since_3_5)
             self.addCleanup(service.close)
-            result, ticks = self.felt_by(f"haply=ws://{service.address}", "--duration", "0.6", "--force")
+            result, ticks = self.felt_by(f"haply=ws://{service.address}", "--duration", "0.6", "--force",
+                                         "--cycles", "cycles.csv")
             self.assertRegex(result.stdout, r"device +inverse3 049D: [1-9]\d* samples")
             self.assertAlmostEqual(float(ticks[-1]["target_pz"]), 0.01)
             self.assertAlmostEqual(max(service.forces), 2.0)  # The plate pushes up, to the device's limit.
             self.assertEqual(service.forces[-1], 0.0)
+            with open(self.folder / "cycles.csv", encoding="utf-8") as file:
+                forces = self.assert_devices_are_those_of_ticks(ticks, list(csv.DictReader(file)))
+            self.assertGreater(max(force[2] for force in forces), 2.0)  # As asked, beyond the limit of the device.
 
     def test_follows_a_plug_in(self):
         result, ticks = self.felt_by(f"plugin={PLUGIN},radius=0.05", "--duration", "0.3")

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -15,6 +16,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
@@ -96,6 +98,45 @@ TEST(HapticRun, SaysThatItIsOne) {
   const Recorded recorded = record_cycles(kPlate, 1, [](int, std::size_t) { return Pose{}; });
   std::istringstream stream(recorded.run);
   EXPECT_EQ(RunReader(stream, "run.jsonl").header().kind, RunKind::haptics);
+}
+
+// A spring of 1000 N/m at a scale of 2: the hand feels twice the force of the spring.
+TEST(HapticRun, HoldsDevicesOfTicksWithTheForcesThatHandsFeel) {
+  Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [
+    {"name": "plate", "shape": {"box": {"size": [0.3, 0.3, 0.01]}}},
+    {"name": "tool", "shape": {"box": {"size": [0.02, 0.03, 0.01]}}, "pose": {"position": [0, 0, 0.0101]}}],
+    "haptics": {"tools": [{"body": "tool", "scale": 2}]}})",
+                            "scene.json");
+  ShapeCache cache;
+  prepare_haptics(scene, cache, 1.0);
+  const LoadedScene loaded = load_scene(std::move(scene), cache);
+  const HapticSetup setup = haptic_setup(loaded);
+  HapticSession session(setup.scene, setup.options);
+  HapticRun run(loaded, setup, session.contacts().contact_distance());
+  std::string text = write_run_header(run.header());
+  RunStep last;
+  ForceTick tick;
+  for (std::uint64_t k = 1; k <= 2000; ++k) {
+    DeviceState state;
+    state.time_ns = session.time_ns();
+    state.sequence = k;
+    state.status = DeviceStatus::live;
+    state.X_DH.position = {0.0, 0.0, k == 1999 ? std::nan("") : -0.001};
+    const ForceTick& now = session.step(std::array{state});
+    if (session.cycle() != nullptr) {
+      tick = now;
+      last = run.step(*session.cycle(), run.devices(now));
+      text += write_run_step(last);
+    }
+  }
+  ASSERT_EQ(last.devices.size(), 1U);
+  const RunDevice& device = last.devices[0];
+  EXPECT_EQ(device.body, 1U);
+  EXPECT_NEAR(device.X_WB.position.z(), 0.0081, 1e-12);
+  const double spring = 1000.0 * 0.0019;  // The tool rests about 1 µm above the plate.
+  EXPECT_NEAR(device.force.z(), 2.0 * spring, 0.02);
+  EXPECT_LT((device.force - tick.tools[0].asked.force_D).norm(), 1e-12);
+  EXPECT_EQ(verify_text(text).verdict, ProofVerdict::proven);
 }
 
 TEST(HapticRun, IsProvenWhereSurroundingsMoveAndHaveToWait) {

@@ -298,6 +298,43 @@ TEST(RunFile, KnowsWhereItWasCutOff) {
   EXPECT_EQ(complaint(""), "run.jsonl:1: expected the header of a run, got no whole line");
 }
 
+/// A haptic run of one step.
+std::string felt_run(Doubles& doubles) {
+  RunHeader header = example_header();
+  header.kind = RunKind::haptics;
+  RunStep step = example_step(1, doubles);
+  step.devices.push_back(
+      {.body = 0, .X_WB = doubles.pose(), .force = doubles.vector(), .torque = doubles.vector()});
+  return write_run_header(header) + write_run_step(step);
+}
+
+TEST(RunFile, HoldsDevicesOfHapticTools) {
+  Doubles doubles;
+  const std::string text = felt_run(doubles);
+  std::istringstream stream(text);
+  RunReader reader(stream, "run.jsonl");
+  const std::string header = write_run_header(reader.header());
+  const RunStep step = reader.next().value();
+  ASSERT_EQ(step.devices.size(), 1U);
+  EXPECT_EQ(header + write_run_step(step), text);
+}
+
+TEST(RunFile, SaysWhichDeviceIsWrong) {
+  Doubles doubles;
+  const std::string text = felt_run(doubles);
+  const std::string device = text.substr(text.find("\"devices\":[") + 11);
+  const std::string one = device.substr(0, device.find('}') + 1);
+  EXPECT_EQ(
+      complaint(with(text, one, one + "," + one)),
+      "run.jsonl:2: devices[1].body: expected tools in the order of their numbers, each once");
+  EXPECT_EQ(complaint(with(text, one, with(one, "\"body\":0", "\"body\":1"))),
+            "run.jsonl:2: devices[0].body: expected the number of a tool, a body with a mass");
+  EXPECT_EQ(complaint(with(text, one, with(one, "\"force\":[", "\"force\":[0,"))),
+            "run.jsonl:2: devices[0].force: expected an array of 3");
+  EXPECT_EQ(complaint(with(text, "\"kind\":\"haptics\",", "")),
+            "run.jsonl:2: devices: expected no such key here: only runs of haptics have devices");
+}
+
 TEST(RunFile, SaysWhereItIsWrong) {
   const std::string text = example_run(2);
   EXPECT_EQ(complaint(text), "");

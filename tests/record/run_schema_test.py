@@ -18,12 +18,17 @@ except ImportError:
     sys.exit(77)
 
 
+# Keys that a line may lack.
+OPTIONAL = ("kind", "devices")
+
+
 def spoiled(value):
     """Copies of a line that lack a key somewhere, or have one too many, or a row of another length."""
     if isinstance(value, dict):
         yield {**value, "extra": 1}
         for key, member in value.items():
-            yield {other: kept for other, kept in value.items() if other != key}
+            if key not in OPTIONAL:
+                yield {other: kept for other, kept in value.items() if other != key}
             if key != "scene":
                 yield from ({**value, key: wrong} for wrong in spoiled(member))
     elif isinstance(value, list) and value:

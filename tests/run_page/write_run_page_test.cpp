@@ -94,6 +94,24 @@ TEST(RunPage, CountsContactsStepByStep) {
                          base64_single({0.5F}) + "\"}");
 }
 
+TEST(RunPage, HoldsDevicesFromTheirFirstStepOn) {
+  test::RecordedRun run(kScene);
+  run.add({{0, {{.lasts = 1.0}}}});
+  EXPECT_EQ(page_of(run).find("\"devices\""), std::string::npos);
+  RunDevice device;
+  device.X_WB = {{1, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)};
+  device.force = {4, 5, 6};
+  device.torque = {7, 8, 9};
+  run.add({{0, {{.lasts = 1.0}}}}).devices = {device};
+  const std::string page = page_of(run);
+  PageNumbers steps;
+  steps.add(1, 4);
+  expect_holds(page, R"("devices":[{"body":0,"steps":")" + steps.base64() + R"(","positions":")" +
+                         base64({1, 2, 3}) + R"(","rotations":")" + base64_single({0, 1, 0, 0}) +
+                         R"(","forces":")" + base64_single({4, 5, 6}) + R"(","torques":")" +
+                         base64_single({7, 8, 9}) + "\"}]");
+}
+
 TEST(RunPage, SaysWhereLinksBegin) {
   test::RecordedRun run(kScene);
   run.add({{0, {{.lasts = 1.0}}}});

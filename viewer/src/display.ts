@@ -22,6 +22,8 @@ export class Display {
   readonly contacts = new Signal(true);
   /// Arrows of contact forces, in runs.
   readonly forces = new Signal(true);
+  /// Ghosts of tools where haptic devices lead them.
+  readonly devices = new Signal(true);
   /// Shows the visual geometry of links in place of the tested geometry.
   readonly looks = new Signal(false);
   /// Where bodies are cut; null where they are whole.

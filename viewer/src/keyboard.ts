@@ -33,6 +33,7 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     o: () => flip(display.onion),
     c: () => flip(display.contacts),
     a: () => model.run && flip(display.forces),
+    d: () => model.devices.length > 0 && flip(display.devices),
     v: () => model.hasLooks && flip(display.looks),
     m: () => flip(display.measure),
     r: () => model.path && !model.path.failed && flip(display.path),

@@ -161,7 +161,7 @@ function start(model: Model, result: number | null = null): void {
   };
 
   const joint = new Signal<Coordinate | null>(null);
-  const charts = model.run ? runCharts(model.run) : [];
+  const charts = model.run ? runCharts(model.run, model.devices) : [];
   const shownChart = new Signal<RunChart | null>(charts[0] ?? null);
   const content = new Signal<ChartContent | null>(null);
   joint.subscribe((one) => {
@@ -181,7 +181,7 @@ function start(model: Model, result: number | null = null): void {
     warningsPanel(model),
     probePanel(view, display, player),
     ...(model.run
-      ? [stepPanel(model.run, player), runChartsPanel(model.run, charts, player, shownChart)]
+      ? [stepPanel(model, model.run, player), runChartsPanel(model.run, charts, player, shownChart)]
       : []),
     pairsPanel(model, view, player),
     contactsPanel(model, view, player),

@@ -14,6 +14,7 @@ import type { FileReport, PairCounts } from "./data/reports";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
 import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
 import type { RunData, WayData } from "./data/run_data";
+import { devicesOf, type Device } from "./devices";
 import { combine, identity, isAtRest, motionOf, poseOf, totalAngle } from "./motion/motion";
 import type { Motion, Pose } from "./motion/motion";
 import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/robot";
@@ -241,6 +242,8 @@ export class Model {
   readonly bodies: readonly Body[];
   /// Of a run.
   readonly ties: readonly Tie[];
+  /// Of a haptic run.
+  readonly devices: readonly Device[];
   readonly robots: readonly string[];
   readonly coordinates: readonly Coordinate[];
   readonly gap: GapLine;
@@ -285,6 +288,7 @@ export class Model {
     });
     this.bodies = bodies;
     this.ties = run ? tiesOf(run, bodies) : [];
+    this.devices = run ? devicesOf(run, bodies) : [];
     this.robots = robots.map(({ name }) => name);
     this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));

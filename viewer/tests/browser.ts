@@ -49,6 +49,11 @@ export interface RecordedStep {
   readonly contacts: readonly { readonly point: Vector3; readonly impulse: Vector3 }[];
   readonly impacts?: readonly { readonly at: number }[];
   readonly kinetic_energy: number;
+  readonly devices?: readonly {
+    readonly body: number;
+    readonly position: Vector3;
+    readonly force: Vector3;
+  }[];
 }
 
 export interface MadeRun {
@@ -73,6 +78,15 @@ export interface MadePlan {
   readonly url: string;
   /// Null where none was found.
   readonly path: PlannedPath | null;
+}
+
+function runAt(file: string, record: string): MadeRun {
+  const lines = readFileSync(record, "utf8").trimEnd().split("\n").slice(1);
+  return {
+    url: `file://${file}`,
+    file,
+    steps: lines.map((line) => JSON.parse(line) as RecordedStep),
+  };
 }
 
 export class Folder {
@@ -110,12 +124,29 @@ export class Folder {
     ) as [string, string, string];
     writeFileSync(input, JSON.stringify(scene));
     await run(["simulate", input, "--html", file, "-o", record]);
-    const lines = readFileSync(record, "utf8").trimEnd().split("\n").slice(1);
-    return {
-      url: `file://${file}`,
-      file,
-      steps: lines.map((line) => JSON.parse(line) as RecordedStep),
-    };
+    return runAt(file, record);
+  }
+
+  /// A page of tools that follow recordings: the samples of each are seconds, a position and a
+  /// rotation.
+  async haptics(
+    name: string,
+    scene: object,
+    recordings: readonly (readonly (readonly number[])[])[],
+    ...options: string[]
+  ): Promise<MadeRun> {
+    const [file, record, input] = [".html", ".jsonl", ".scene.json"].map((end) =>
+      join(this.path, name + end),
+    ) as [string, string, string];
+    writeFileSync(input, JSON.stringify(scene));
+    const devices = recordings.flatMap((samples, k) => {
+      const rows = samples.map(([time, ...pose], n) => [Math.round(1e9 * time!), n + 1, ...pose]);
+      const head = "# firstcontact recording: 1\ntime_ns,sequence,x,y,z,qw,qx,qy,qz\n";
+      this.write(`${name}${k}.csv`, `${head}${rows.map((row) => row.join(",")).join("\n")}\n`);
+      return ["--device", join(this.path, `${name}${k}.csv`)];
+    });
+    await run(["haptics", input, ...devices, "--html", file, "-o", record, ...options]);
+    return runAt(file, record);
   }
 
   /// A page of a plan.
@@ -227,6 +258,22 @@ declare global {
         } | null;
         ghosts: { group: { children: { matrix: { elements: number[] } }[] } };
         edgeAt(x: number, y: number): number | null;
+        devices: {
+          ghosts: {
+            visible: boolean;
+            children: { visible: boolean; matrix: { elements: number[] } }[];
+          };
+          arrows: {
+            visible: boolean;
+            position: PlaceOfPage;
+            children: {
+              visible: boolean;
+              position: PlaceOfPage;
+              scale: { z: number };
+              matrixWorld: { elements: number[] };
+            }[];
+          };
+        } | null;
         camera: { position: { x: number; y: number; z: number } };
       };
     };

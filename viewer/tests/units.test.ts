@@ -7,6 +7,7 @@ import type { Vector3 } from "../src/data/result";
 import { momentOf } from "../src/link";
 import { sharedBeginnings } from "../src/names";
 import { noneOf, pairFacts, untestedText } from "../src/panels/pair_facts";
+import { Device } from "../src/devices";
 import { runCharts } from "../src/panels/run_charts";
 import { verdictOf } from "../src/panels/verdict";
 import { Player } from "../src/player";
@@ -64,6 +65,38 @@ describe("quantities", () => {
   });
 });
 
+describe("a device", () => {
+  const steps = [0.5, 1, 2].map((time, k) => ({ time, lasted: k === 2 ? 1 : 0.5 }));
+  const [w, z] = [Math.SQRT1_2, Math.SQRT1_2];
+  const device = new Device(
+    {
+      body: 1,
+      steps: new Uint32Array([1, 2]),
+      positions: new Float64Array([0, 0, 0, 3, 0, 0]),
+      rotations: new Float32Array([w, 0, 0, z, 1, 0, 0, 0]),
+      forces: new Float32Array([0, 0, 0, 3, 4, 0]),
+      torques: new Float32Array([0, 0, 0.5, 0, 0, 0]),
+    },
+    { name: "peg", motion: (t) => ({ position: [4 * t, 0, 0], rotation: [1, 0, 0, 0] }) },
+    [1, 0, 0],
+    { steps } as never,
+  );
+
+  test("has a pose and a force from its first step on", () => {
+    expect(device.at(0)).toBeNull();
+    expect(device.at(2)!.force).toEqual([3, 4, 0]);
+    expect(device.forces).toEqual([0, 0, 5]);
+    expect(device.torques).toEqual([0, 0.5, 0]);
+  });
+
+  test("is ahead of its tool by the distance of their centres as a step begins", () => {
+    // At 0.5 s the centre of the tool is at x = 1 + 1; the device has it at y = 1.
+    expect(device.leads[1]).toBeCloseTo(Math.hypot(2, 1), 6);
+    expect(device.leads[2]).toBeCloseTo(1, 6); // x = 4 and x = 3.
+    expect(device.leads[0]).toBe(0);
+  });
+});
+
 describe("a run", () => {
   const run = (
     efforts: number[][],
@@ -114,6 +147,7 @@ describe("a run", () => {
         impulses: new Float32Array(),
         distances: new Float32Array(),
       },
+      devices: [],
     });
   const moving = [
     [1, 0],
@@ -129,7 +163,7 @@ describe("a run", () => {
       moving,
     );
     expect(driven.motorPowers).toEqual([5, -18]);
-    const chart = runCharts(driven).find(({ name }) => name === "power of motors")!;
+    const chart = runCharts(driven, []).find(({ name }) => name === "power of motors")!;
     expect(chart.content.unit).toBe("W");
     expect(chart.content.range[0]).toBeLessThan(-18);
     expect(chart.content.range[1]).toBeGreaterThan(5);
@@ -141,7 +175,7 @@ describe("a run", () => {
       [0, 3, 4],
       [-1, 0, 0],
     ]);
-    const chart = runCharts(hit).find(({ name }) => name === "greatest impact")!;
+    const chart = runCharts(hit, []).find(({ name }) => name === "greatest impact")!;
     expect(chart.content.unit).toBe("N s");
     expect(chart.values).toEqual([5, 0]);
     expect(hit.impacts.map(({ t }) => t)).toEqual([0.125, 0.25]); // In the order of time.
@@ -160,7 +194,7 @@ describe("a run", () => {
       moving,
     );
     expect(free.motorPowers).toBeNull();
-    const names = runCharts(free).map(({ name }) => name);
+    const names = runCharts(free, []).map(({ name }) => name);
     expect(names).not.toContain("power of motors");
     expect(names).not.toContain("greatest impact");
     expect(names).toContain("kinetic energy");
@@ -170,7 +204,7 @@ describe("a run", () => {
     const still = [[0], [0]];
     const felt = run(still, still, [], { kind: "haptics" });
     expect(felt.hasDynamics).toBe(false);
-    const names = runCharts(felt).map(({ name }) => name);
+    const names = runCharts(felt, []).map(({ name }) => name);
     expect(names).toContain("contacts");
     expect(names).not.toContain("kinetic energy");
     expect(names).not.toContain("greatest contact force");

@@ -117,7 +117,7 @@ class FeltSession {
     }
     cycle_.reset();
     if (session_.cycle() != nullptr) {
-      cycle_ = run_.step(*session_.cycle());
+      cycle_ = run_.step(*session_.cycle(), run_.devices(felt.tick));
     }
     return felt;
   }

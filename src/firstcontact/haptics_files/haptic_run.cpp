@@ -54,19 +54,35 @@ HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double
     header_.masses[bodies_[k]] = 1.0;  // Links turn about their origins.
   }
   for (std::size_t k = 0; k < tools; ++k) {
+    const auto& mappings = setup.options.mappings;
+    scales_.push_back(k < mappings.size() ? mappings[k].scale : 1.0);
     header_.masses[bodies_[k]] = 1.0;
     header_.centres_of_mass[bodies_[k]] = setup.scene.tools[k].p_BC;
   }
 }
 
-RunStep HapticRun::step(const HapticCycle& cycle) {
+std::vector<RunDevice> HapticRun::devices(const ForceTick& tick) const {
+  std::vector<RunDevice> made;
+  for (std::size_t k = 0; k < scales_.size(); ++k) {
+    const ToolTick& tool = tick.tools[k];
+    made.push_back({.body = bodies_[k],
+                    .X_WB = tool.target,
+                    .force = scales_[k] * tool.force_W,
+                    .torque = tool.torque_W});
+  }
+  std::ranges::sort(made, {}, &RunDevice::body);
+  return made;
+}
+
+RunStep HapticRun::step(const HapticCycle& cycle, std::vector<RunDevice> devices) {
   time_ += cycle.asked;
   behind_ += cycle.asked - cycle.lasted;
   RunStep step{.index = ++count_,
                .time = time_,
                .lasted = cycle.asked,
                .clearance = cycle.clearance,
-               .events = cycle.rounds};
+               .events = cycle.rounds,
+               .devices = std::move(devices)};
   for (const HapticMemberMotion& motion : cycle.members) {
     RunBody& body = step.bodies.emplace_back(run_body(motion, bodies_[motion.member]));
     const bool has_course = !(header_.masses[body.body] > 0.0);

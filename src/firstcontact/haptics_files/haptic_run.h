@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <vector>
+
 #include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/force_loop.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/record/run.h>
@@ -26,13 +29,21 @@ class FIRSTCONTACT_API HapticRun {
   [[nodiscard]] const RunHeader& header() const { return header_; }
 
   /// Converts the next cycle.
-  [[nodiscard]] RunStep step(const HapticCycle& cycle);
+  ///
+  /// @param devices  devices at the tick whose targets the cycle followed; may be empty
+  [[nodiscard]] RunStep step(const HapticCycle& cycle, std::vector<RunDevice> devices = {});
+
+  /// Converts the tools of a tick to devices of the step that begins there.
+  ///
+  /// The force is the one that was asked of the device, with components that it does not drive.
+  [[nodiscard]] std::vector<RunDevice> devices(const ForceTick& tick) const;
 
  private:
   RunHeader header_;
   std::vector<std::size_t> bodies_;
-  double time_ = 0.0;    // [s]
-  double behind_ = 0.0;  // [s]  The time that all courses have waited for tools.
+  std::vector<double> scales_;  // DeviceMapping::scale of each tool.
+  double time_ = 0.0;           // [s]
+  double behind_ = 0.0;         // [s]  The time that all courses have waited for tools.
   std::size_t count_ = 0;
 };
 

@@ -313,6 +313,37 @@ std::vector<RunTie> read_ties(const json& root, std::size_t count, const Line& l
   return ties;
 }
 
+RunDevice read_device(const json& value, const RunHeader& header, const Line& line) {
+  line.require_keys(value, {"body", "position", "quaternion_wxyz", "force", "torque"});
+  const std::size_t body = line.index(value["body"], header.masses.size());
+  if (!(header.masses[body] > 0.0)) {
+    line.fail(value["body"], "the number of a tool, a body with a mass");
+  }
+  return {.body = body,
+          .X_WB = {line.vector3(value["position"]),
+                   line.quaternion(line.array(value["quaternion_wxyz"], 4), 0)},
+          .force = line.vector3(value["force"]),
+          .torque = line.vector3(value["torque"])};
+}
+
+std::vector<RunDevice> read_devices(const json& root, const RunHeader& header, const Line& line) {
+  std::vector<RunDevice> devices;
+  const auto array = root.find("devices");
+  if (array == root.end()) {
+    return devices;
+  }
+  if (header.kind != RunKind::haptics) {
+    line.fail(*array, "no such key here: only runs of haptics have devices");
+  }
+  for (const json& element : line.array(*array)) {
+    devices.push_back(read_device(element, header, line));
+    if (devices.size() > 1 && devices.back().body <= devices[devices.size() - 2].body) {
+      line.fail(element["body"], "tools in the order of their numbers, each once");
+    }
+  }
+  return devices;
+}
+
 std::vector<RunBody> read_bodies(const json& array, std::size_t bodies, double lasted,
                                  const Line& line) {
   std::vector<RunBody> result;
@@ -351,13 +382,14 @@ std::vector<RunRobot> read_robots(const json& array, std::size_t robots, const L
   return result;
 }
 
-RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std::size_t ties) {
+RunStep read_step(const Line& line, const RunHeader& header) {
   const json& root = line.root();
+  const std::size_t bodies = header.masses.size();
   line.require_keys(
       root,
       {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance", "kinetic_energy",
        "potential_energy", "linear_momentum", "angular_momentum", "residual", "events"},
-      {"robots", "impacts", "ties"});
+      {"robots", "impacts", "ties", "devices"});
   RunStep step;
   step.index = line.index(root["step"], kAnyCount);
   step.time = line.not_negative(root["time"]);
@@ -365,7 +397,7 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std:
   step.time_lost = line.not_negative(root["time_lost"]);
   step.bodies = read_bodies(root["bodies"], bodies, step.lasted, line);
   if (root.contains("robots")) {
-    step.robots = read_robots(root["robots"], robots, line);
+    step.robots = read_robots(root["robots"], header.scene.robots.size(), line);
   }
   for (const json& contact : line.array(root["contacts"])) {
     step.contacts.push_back(read_contact(contact, bodies, line));
@@ -375,7 +407,9 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std:
       step.impacts.push_back(read_impact(impact, bodies, line));
     }
   }
-  step.ties = read_ties(root, ties, line);
+  step.ties =
+      read_ties(root, header.scene.simulation ? header.scene.simulation->ties.size() : 0, line);
+  step.devices = read_devices(root, header, line);
   step.clearance = root["clearance"].is_null() ? std::numeric_limits<double>::infinity()
                                                : line.not_negative(root["clearance"]);
   step.kinetic_energy = line.number(root["kinetic_energy"]);
@@ -392,13 +426,11 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std:
 RunReader::RunReader(std::istream& run, std::string path, const ReadingOptions& options)
     : stream_(run), path_(std::move(path)) {
   header_ = read_header(header_line(), path_, options);
-  bodies_ = header_.masses.size();
 }
 
 RunReader::RunReader(std::istream& run, std::string path, RunHeader header)
     : stream_(run), path_(std::move(path)), header_(std::move(header)) {
   (void)header_line();
-  bodies_ = header_.masses.size();
 }
 
 std::string RunReader::header_line() {
@@ -415,8 +447,7 @@ std::optional<RunStep> RunReader::next() {
     return std::nullopt;
   }
   const Line line(*text, path_, line_);
-  RunStep step = read_step(line, bodies_, header_.scene.robots.size(),
-                           header_.scene.simulation ? header_.scene.simulation->ties.size() : 0);
+  RunStep step = read_step(line, header_);
   if (step.index != steps_ + 1) {
     line.fail(line.root()["step"], std::to_string(steps_ + 1) + ", the steps in order");
   }

@@ -63,7 +63,6 @@ class FIRSTCONTACT_API RunReader {
   std::uint64_t size_ = 0;
   bool cut_off_ = false;
   RunHeader header_;
-  std::size_t bodies_ = 0;  // Bodies of the scene and of links.
 };
 
 }  // namespace firstcontact

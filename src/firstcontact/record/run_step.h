@@ -85,6 +85,16 @@ struct RunTie {
                                                      ///< hinge or a weld.
 };
 
+/// The device of a haptic tool at the begin of a step.
+struct RunDevice {
+  std::size_t body = 0;                              ///< The tool.
+  Pose X_WB = {};                                    ///< Pose to which the device leads the tool.
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]  Force on the device at the tool's
+                                                     ///< centre of mass in X_WB, world axes.
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]  Torque on the device about that
+                                                     ///< centre, world axes.
+};
+
 /// A step of a run.
 struct RunStep {
   std::size_t index = 0;  ///< From 1.
@@ -106,6 +116,7 @@ struct RunStep {
   std::vector<RunContact> contacts = {};
   std::vector<RunImpact> impacts = {};  ///< In the order of time.
   std::vector<RunTie> ties = {};        ///< In the order of the scene's.
+  std::vector<RunDevice> devices = {};  ///< Devices of haptic tools, in the order of bodies.
 };
 
 }  // namespace firstcontact

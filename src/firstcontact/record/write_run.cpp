@@ -155,6 +155,15 @@ class StepText {
       }
     });
   }
+  void add(const RunDevice& device) {
+    object([&] {
+      field("body", device.body);
+      field("position", device.X_WB.position);
+      field("quaternion_wxyz", device.X_WB.rotation);
+      field("force", device.force);
+      field("torque", device.torque);
+    });
+  }
   void add(const RunImpact& impact) {
     object([&] {
       field("at", impact.at);
@@ -266,6 +275,9 @@ std::string write_run_step(const RunStep& step) {
     }
     if (!step.ties.empty()) {
       text.field("ties", step.ties);
+    }
+    if (!step.devices.empty()) {
+      text.field("devices", step.devices);
     }
   });
   return text.take() + "\n";

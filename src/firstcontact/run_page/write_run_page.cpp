@@ -1,6 +1,6 @@
 #include <firstcontact/run_page/write_run_page.h>
 
-#include <array>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +19,12 @@ void add_single(PageNumbers& row, const Eigen::Vector3d& v) {
   }
 }
 
+void add_single(PageNumbers& row, const Eigen::Quaterniond& q) {
+  for (const double coordinate : {q.w(), q.x(), q.y(), q.z()}) {
+    row.add(static_cast<float>(coordinate));
+  }
+}
+
 }  // namespace
 
 RunPage::RunPage(const RunHeader& header)
@@ -33,11 +39,16 @@ void RunPage::add(const RunStep& step) {
   for (const RunContact& contact : step.contacts) {
     add(contact);
   }
+  for (const RunDevice& device : step.devices) {
+    add(device);
+  }
   contacts_until_.add(contact_count_, 4);
-  // The step leaves out what polylines and contacts hold.
+  ++step_count_;
+  // The step leaves out what polylines, contacts and devices hold.
   RunStep rest = step;
   rest.bodies.clear();
   rest.contacts.clear();
+  rest.devices.clear();
   steps_ += (steps_.empty() ? "" : ",") + write_run_step(rest);
   time_ = step.time;
 }
@@ -45,10 +56,7 @@ void RunPage::add(const RunStep& step) {
 void RunPage::add_place(Polyline& polyline, std::size_t body, double time, const Pose& X_WB) const {
   polyline.times.add(time);
   polyline.places.add(Eigen::Vector3d(X_WB.position + X_WB.rotation * centres_of_mass_[body]));
-  const Eigen::Quaterniond& q = X_WB.rotation;
-  for (const double coordinate : {q.w(), q.x(), q.y(), q.z()}) {
-    polyline.rotations.add(static_cast<float>(coordinate));
-  }
+  add_single(polyline.rotations, X_WB.rotation);
 }
 
 void RunPage::begin_piece(std::size_t body, double time, const Pose& X_WB,
@@ -80,6 +88,19 @@ void RunPage::add(const RunContact& contact) {
   add_single(impulses_, contact.impulse);
   distances_.add(static_cast<float>(contact.distance));
   ++contact_count_;
+}
+
+void RunPage::add(const RunDevice& device) {
+  auto rows = std::ranges::find(devices_, device.body, &DeviceRows::body);
+  if (rows == devices_.end()) {
+    rows = devices_.emplace(rows);
+    rows->body = device.body;
+  }
+  rows->steps.add(step_count_, 4);
+  rows->positions.add(device.X_WB.position);
+  add_single(rows->rotations, device.X_WB.rotation);
+  add_single(rows->forces, device.force);
+  add_single(rows->torques, device.torque);
 }
 
 /// The header of a page. Links are bodies there, and the page has their meshes elsewhere.
@@ -120,6 +141,19 @@ std::string RunPage::contacts_json() const {
       .dump();
 }
 
+std::string RunPage::devices_json() const {
+  nlohmann::ordered_json devices = nlohmann::ordered_json::array();
+  for (const DeviceRows& rows : devices_) {
+    devices.push_back({{"body", rows.body},
+                       {"steps", rows.steps.base64()},
+                       {"positions", rows.positions.base64()},
+                       {"rotations", rows.rotations.base64()},
+                       {"forces", rows.forces.base64()},
+                       {"torques", rows.torques.base64()}});
+  }
+  return devices.dump();
+}
+
 std::string RunPage::write(std::string_view page_template, const LoadedScene& loaded) const {
   if (!(time_ > 0.0)) {
     throw std::invalid_argument("expected a run of some time: there is nothing to play");
@@ -128,7 +162,8 @@ std::string RunPage::write(std::string_view page_template, const LoadedScene& lo
   const std::string run = "{\"header\":" + header_json(linked.scene) +
                           ",\"links_from\":" + std::to_string(header_.scene.bodies.size()) +
                           ",\"steps\":[" + steps_ + "],\"ways\":" + polylines_json() +
-                          ",\"contacts\":" + contacts_json() + "}";
+                          ",\"contacts\":" + contacts_json() +
+                          (devices_.empty() ? "" : ",\"devices\":" + devices_json()) + "}";
   return write_page(page_template, linked, {.name = "run", .json = run});
 }
 

@@ -21,8 +21,9 @@ struct LoadedScene;
 /// Collects a run, step after step, for the viewer's page (docs/viewer.md).
 ///
 /// The page holds the header word for word, the totals of each step, and the motion of each body
-/// by all of its pieces. A contact has its bodies, point, impulse and distance. Times, positions
-/// and points are in double precision, rotations in single precision.
+/// by all of its pieces. A contact has its bodies, point, impulse and distance. A device has the
+/// pose of its tool, its force and its torque. Times, positions and points are in double precision;
+/// rotations, forces and torques in single precision.
 class FIRSTCONTACT_API RunPage {
  public:
   explicit RunPage(const RunHeader& header);
@@ -52,19 +53,33 @@ class FIRSTCONTACT_API RunPage {
     Pose X_WB;              // Pose at the end.
   };
 
+  /// The device of a tool, step after step.
+  struct DeviceRows {
+    std::size_t body = 0;
+    PageNumbers steps;      // Number of the step that begins, from 0.
+    PageNumbers positions;  // [m]  Positions of the tool's frame.
+    PageNumbers rotations;  // w, x, y, z of R_WB
+    PageNumbers forces;     // [N]
+    PageNumbers torques;    // [N m]
+  };
+
   void begin_piece(std::size_t body, double time, const Pose& X_WB, const Eigen::Vector3d& turn);
   void add_place(Polyline& polyline, std::size_t body, double time, const Pose& X_WB) const;
   void add(const RunBody& moved);
   void add(const RunContact& contact);
+  void add(const RunDevice& device);
   [[nodiscard]] std::string header_json(const Scene& linked) const;
   [[nodiscard]] std::string polylines_json() const;
   [[nodiscard]] std::string contacts_json() const;
+  [[nodiscard]] std::string devices_json() const;
 
   RunHeader header_;
   std::vector<Eigen::Vector3d> centres_of_mass_;
   double time_ = 0.0;  // [s]
   std::string steps_;
   std::vector<Polyline> polylines_;  // One for every body; empty for bodies at rest.
+  std::vector<DeviceRows> devices_;  // Of haptic tools.
+  std::uint64_t step_count_ = 0;
   std::uint64_t contact_count_ = 0;
   PageNumbers contacts_until_;  // For each step the number of contacts up to its end.
   PageNumbers contact_bodies_;

@@ -38,6 +38,12 @@ const forces: readonly Unit[] = [
   { name: "µN", size: 1e-6 },
 ];
 
+const torques: readonly Unit[] = [
+  { name: "N m", size: 1 },
+  { name: "mN m", size: 1e-3 },
+  { name: "µN m", size: 1e-6 },
+];
+
 const powers: readonly Unit[] = [
   { name: "GW", size: 1e9 },
   { name: "MW", size: 1e6 },
@@ -67,6 +73,7 @@ export const timeUnit = (value: number): Unit => unitFor(times, times[0]!, value
 
 export const energyUnit = (value: number): Unit => unitFor(energies, energies[3]!, value);
 export const forceUnit = (value: number): Unit => unitFor(forces, forces[3]!, value);
+export const torqueUnit = (value: number): Unit => unitFor(torques, torques[0]!, value);
 export const impulseUnit = (value: number): Unit => unitFor(impulses, impulses[1]!, value);
 export const powerUnit = (value: number): Unit => unitFor(powers, powers[3]!, value);
 
@@ -134,6 +141,8 @@ export const timeText = (value: number | null, digits = 5, rounding: Rounding = 
 
 export const energyText = (value: number, digits = 4): string =>
   quantity(value, energyUnit(shownAs(value, digits)), digits);
+export const torqueText = (value: number, digits = 3): string =>
+  quantity(value, torqueUnit(value), digits);
 export const forceText = (value: number, digits = 3): string =>
   quantity(value, forceUnit(shownAs(value, digits)), digits);
 export const impulseText = (value: number, digits = 3): string =>

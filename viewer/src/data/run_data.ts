@@ -66,6 +66,16 @@ export interface RunContactsData {
   readonly distances: Float32Array; ///< [m]
 }
 
+/// The device of a tool in a haptic run, a row for each step that has it.
+export interface DeviceData {
+  readonly body: number; ///< The tool.
+  readonly steps: Uint32Array; ///< From 0: it is so as the step begins.
+  readonly positions: Float64Array; ///< [m] Of the tool's frame, where the device leads it.
+  readonly rotations: Float32Array; ///< w, x, y, z
+  readonly forces: Float32Array; ///< [N] On the device.
+  readonly torques: Float32Array; ///< [N m] On the device, about the centre of mass.
+}
+
 export interface RunHeader {
   /// Left out of simulations.
   readonly kind?: "haptics";
@@ -89,6 +99,7 @@ export interface RunData {
   readonly steps: readonly StepData[];
   readonly ways: readonly WayData[];
   readonly contacts: RunContactsData;
+  readonly devices: readonly DeviceData[]; ///< Of haptic runs.
 }
 
 /// As the tool leaves it: rows of numbers are base64.
@@ -102,13 +113,15 @@ export interface StoredRun {
   readonly steps: readonly StepData[];
   readonly ways: readonly Stored<WayData>[];
   readonly contacts: Stored<RunContactsData>;
+  readonly devices?: readonly Stored<DeviceData>[];
 }
 
 const doubles = (text: string): Float64Array => new Float64Array(bytesOf(text));
 const singles = (text: string): Float32Array => new Float32Array(bytesOf(text));
 const counts = (text: string): Uint32Array => new Uint32Array(bytesOf(text));
 
-export function runOf({ header, links_from, steps, ways, contacts }: StoredRun): RunData {
+export function runOf(stored: StoredRun): RunData {
+  const { header, links_from, steps, ways, contacts, devices = [] } = stored;
   return {
     header,
     linksFrom: links_from,
@@ -127,5 +140,13 @@ export function runOf({ header, links_from, steps, ways, contacts }: StoredRun):
       impulses: singles(contacts.impulses),
       distances: singles(contacts.distances),
     },
+    devices: devices.map(({ body, ...rows }) => ({
+      body,
+      steps: counts(rows.steps),
+      positions: doubles(rows.positions),
+      rotations: singles(rows.rotations),
+      forces: singles(rows.forces),
+      torques: singles(rows.torques),
+    })),
   };
 }

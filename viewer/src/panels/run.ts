@@ -1,7 +1,15 @@
 /// The summary of a run, in one card.
 
 import { element } from "../core/dom";
-import { energyText, forceText, impulseText, lengthText, number, timeText } from "../core/format";
+import {
+  energyText,
+  forceText,
+  impulseText,
+  lengthText,
+  number,
+  timeText,
+  torqueText,
+} from "../core/format";
 import type { Model } from "../model";
 import { length } from "../motion/vector";
 import type { Run } from "../run";
@@ -40,6 +48,13 @@ function facts(model: Model, run: Run): [string, string][] {
           ["Energy at the end", energyText(energies.at(-1)!)],
         ] as [string, string][])
       : []),
+    ...model.devices.flatMap(({ name, forces, torques }): [string, string][] => {
+      const of = model.devices.length > 1 ? ` on ${name}` : "";
+      return [
+        [`Greatest force${of}`, forceText(most(forces))],
+        [`Greatest torque${of}`, torqueText(most(torques))],
+      ];
+    }),
     ["Time lost", lost > 0 ? timeText(lost) : "none"],
     ...(run.hasDynamics
       ? [

@@ -9,10 +9,12 @@ import {
   powerUnit,
   quantity,
   timeUnit,
+  torqueUnit,
   type Unit,
 } from "../core/format";
 import type { Signal } from "../core/signal";
 import type { StepData } from "../data/run_data";
+import type { Device } from "../devices";
 import type { Player } from "../player";
 import { length } from "../motion/vector";
 import type { Run } from "../run";
@@ -149,8 +151,22 @@ const dynamic = (run: Run): RunChart[] =>
       ]
     : [];
 
-export const runCharts = (run: Run): RunChart[] => [
+/// Charts of a haptic device.
+///
+/// @param of  what tells it from others
+function deviceCharts(run: Run, { forces, torques, leads }: Device, of: string): RunChart[] {
+  return [
+    amount(run, `force on the device${of}`, forceUnit, (_, k) => forces[k]!),
+    amount(run, `torque on the device${of}`, torqueUnit, (_, k) => torques[k]!),
+    amount(run, `from the device to the tool${of}`, lengthUnit, (_, k) => leads[k]!),
+  ];
+}
+
+export const runCharts = (run: Run, devices: readonly Device[]): RunChart[] => [
   ...dynamic(run),
+  ...devices.flatMap((device) =>
+    deviceCharts(run, device, devices.length > 1 ? `: ${device.name}` : ""),
+  ),
   amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
   amount(run, run.eventName.toLowerCase(), ones, ({ events }) => events),
   ...impulse(run),

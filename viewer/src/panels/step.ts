@@ -9,6 +9,7 @@ import {
   number,
   pointText,
   timeText,
+  torqueText,
 } from "../core/format";
 import { Signal } from "../core/signal";
 import type { Vector3 } from "../data/result";
@@ -23,7 +24,19 @@ const mostRows = 8;
 
 const sizeText = (v: Vector3, unit: string): string => `${number(length(v))}\u00a0${unit}`;
 
-function facts(run: Run, index: number): [string, string][] {
+/// What a haptic device feels as the step begins.
+function deviceFacts({ devices }: Model, index: number): [string, string][] {
+  return devices.flatMap(({ name, forces, torques, leads }): [string, string][] => {
+    const of = devices.length > 1 ? ` on ${name}` : "";
+    return [
+      [`Force${of}`, forceText(forces[index]!)],
+      [`Torque${of}`, torqueText(torques[index]!)],
+      [devices.length > 1 ? `Device to ${name}` : "Device to tool", lengthText(leads[index]!)],
+    ];
+  });
+}
+
+function facts(model: Model, run: Run, index: number): [string, string][] {
   const step = run.steps[index]!;
   return [
     ["Ends at", timeText(step.time)],
@@ -34,6 +47,7 @@ function facts(run: Run, index: number): [string, string][] {
       "Apart",
       step.clearance === null ? "no pair" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
     ],
+    ...deviceFacts(model, index),
     [run.eventName, String(step.events)],
     ...(run.hasDynamics
       ? ([
@@ -79,12 +93,12 @@ function followSteps(run: Run, player: Player, show: (index: number) => void): v
   player.t.subscribe((t) => (shown.value = run.stepAt(t)));
 }
 
-export function stepPanel(run: Run, player: Player): HTMLElement {
+export function stepPanel(model: Model, run: Run, player: Player): HTMLElement {
   const count = element("span.count");
   const table = element("div");
   followSteps(run, player, (index) => {
     count.textContent = `${index + 1} of ${run.steps.length}`;
-    table.replaceChildren(factList(facts(run, index)));
+    table.replaceChildren(factList(facts(model, run, index)));
   });
   return element(
     "section.card",

@@ -22,6 +22,9 @@ function cutButton(display: Display): HTMLElement {
   return button;
 }
 
+const forcesName = ({ devices }: Model): string =>
+  devices.length > 0 ? "Forces on devices" : "Contact forces";
+
 export function toolbar(
   model: Model,
   { display, commands }: Commands,
@@ -42,7 +45,10 @@ export function toolbar(
       ? [toggle(icons.visual, "Visual in place of collision geometry", "v", display.looks)]
       : []),
     toggle(icons.marker, "Contact points", "c", display.contacts),
-    ...(model.run ? [toggle(icons.force, "Contact forces", "a", display.forces)] : []),
+    ...(model.run ? [toggle(icons.force, forcesName(model), "a", display.forces)] : []),
+    ...(model.devices.length > 0
+      ? [toggle(icons.hand, "Where devices lead the tools", "d", display.devices)]
+      : []),
     ...(model.path && !model.path.failed
       ? [toggle(icons.route, "Path, coloured by clearance", "r", display.path)]
       : []),

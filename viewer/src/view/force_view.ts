@@ -24,12 +24,12 @@ import { fadeEach, nearness } from "./fading";
 const dotSize = 8; // [px]
 const many = 100; // Contacts of a step; from here on their dots are small.
 const typicalShare = 0.5; // Of the steps with a force: no greater is their greatest one.
-const typicalLength = 1; // An arrow of such a force, by the size of bodies.
-const greatestLength = 5;
+export const typicalLength = 1; // An arrow of such a force, by the size of bodies.
+export const greatestLength = 5;
 const mostImpacts = 1000; // Drawn at a time.
 
 /// Along z, from 0 to 1.
-function arrowGeometry(): BufferGeometry {
+export function arrowGeometry(): BufferGeometry {
   const outline = [
     [0, 0],
     [0.02, 0],
@@ -41,7 +41,7 @@ function arrowGeometry(): BufferGeometry {
 }
 
 /// Of which arrows have the typical length.
-function typical(values: readonly number[]): number {
+export function typical(values: readonly number[]): number {
   const sorted = values.filter((value) => value > 0).sort((a, b) => a - b);
   return sorted[Math.floor(typicalShare * (sorted.length - 1))] ?? 1;
 }

@@ -34,6 +34,7 @@ import {
 } from "./contact_view";
 import { CutPlane } from "./cut_plane";
 import { nearness } from "./fading";
+import { DeviceMarkers, showDevices } from "./device_view";
 import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { ForceMarkers } from "./force_view";
@@ -41,9 +42,9 @@ import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
 import { rangeFor, rangeTo } from "./framing";
 import { homeDirection } from "./home_view";
-import { addLights } from "./lights";
 import { PathView } from "./path_view";
 import { fieldOfView, type GeometryView, type Surface } from "./geometry_view";
+import { addLights } from "./lights";
 import { Probe, probePoint } from "./probe";
 import { TieMarkers } from "./tie_view";
 
@@ -60,6 +61,7 @@ export class SceneView {
   readonly forces: ForceMarkers | null;
   readonly ties: TieMarkers | null;
   readonly path: PathView | null;
+  readonly devices: DeviceMarkers | null;
   /// [ms] between the last frames while the picture moves.
   frameTime = 0;
   onFrame: (() => void) | null = null;
@@ -111,8 +113,9 @@ export class SceneView {
     this.sweep = this.bounds.opening(model.firstTouch);
     const ends = model.ties.flatMap((tie) => tie.ends(0));
     ends.forEach((end) => this.sweep.expandByPoint(new Vector3(...end)));
-    this.home = this.sweep.getBoundingSphere(new Sphere());
     this.whole = this.bounds.sweep();
+    showDevices(model, this.bounds, this.sweep, this.whole);
+    this.home = this.sweep.getBoundingSphere(new Sphere());
     this.reach = this.home.center.distanceTo(this.whole.getCenter(new Vector3()));
     this.reach += 0.5 * this.whole.getSize(new Vector3()).length();
     this.grid = new Grid(this.sweep, this.camera.up);
@@ -122,6 +125,16 @@ export class SceneView {
     this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.bodySize());
     this.ties =
       model.run && new TieMarkers(model.run, model.ties, this.home.center, this.bodySize());
+    this.devices =
+      model.run && model.devices.length > 0
+        ? new DeviceMarkers(
+            model.run,
+            model.devices,
+            this.bodies,
+            this.home.center,
+            this.bodySize(),
+          )
+        : null;
     this.scene.add(
       ...this.bodies.map(({ group }) => group),
       this.ghosts.group,
@@ -130,6 +143,7 @@ export class SceneView {
       ...(this.forces ? [this.forces.group] : []),
       ...(this.ties ? [this.ties.group] : []),
       ...(this.path ? [this.path.group] : []),
+      ...(this.devices ? [this.devices.ghosts, this.devices.arrows] : []),
       this.probe.group,
       this.camera,
     );
@@ -179,6 +193,7 @@ export class SceneView {
       }
     }
     this.restyle();
+    this.devices?.makeGhosts();
     this.showGhosts();
     this.showMoment(this.player.t.value);
   }
@@ -366,6 +381,15 @@ export class SceneView {
       if (this.forces) {
         this.forces.arrows.visible = shown;
       }
+      if (this.devices) {
+        this.devices.arrows.visible = shown;
+      }
+      this.requestFrame();
+    });
+    display.devices.subscribe((shown) => {
+      if (this.devices) {
+        this.devices.ghosts.visible = shown;
+      }
       this.requestFrame();
     });
     display.path.subscribe((shown) => {
@@ -378,6 +402,7 @@ export class SceneView {
     });
     display.hidden.subscribe((hidden) => {
       this.bodies.forEach(({ group, body }) => (group.visible = !hidden.has(body.index)));
+      this.devices?.show(player.t.value);
       this.showGhosts();
     });
     this.probe.points.subscribe(() => this.showMoment(player.t.value));
@@ -398,6 +423,7 @@ export class SceneView {
     );
     this.forces?.show(t, window);
     this.ties?.show(t);
+    this.devices?.show(t);
     this.probe.show(t);
     this.requestFrame();
   }

@@ -1,0 +1,132 @@
+#include "haptic_arguments.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptic_devices/operator_path.h>
+
+#include "command_line_file.h"
+#include "command_line_number.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr double kDuration = 10.0;      // [s]
+constexpr double kLiveDuration = 60.0;  // [s]  With a device that a hand moves.
+
+constexpr const char* kFooter = R"(
+SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices, one --device each.
+DEVICE is one of these (docs/haptic_devices.md):
+  FILE.csv                    a recording
+  simulated                   a hand that moves at random, on a device without weight
+  mouse[=PORT]                the mouse, on a page that this command serves to this machine only
+  spacemouse[=SOCKET]         a SpaceMouse through spacenavd
+  haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
+  plugin=FILE[,SETTINGS]      another device, by a shared library
+The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
+hardware. In virtual time the same command gives the same files.
+RUN, the output file, holds the motion of the tools. `firstcontact verify RUN` proves with other
+code that no tool passed through a body, between ticks too. `firstcontact view RUN` plays it.
+
+Exit status: 0 done; 2 bad input; 3 stopped early, or moving bodies had to wait for a tool.)";
+
+}  // namespace
+
+std::vector<OutputFile> outputs_of(const HapticArguments& arguments) {
+  return {{"-o", arguments.run},          {"--ticks", arguments.ticks},
+          {"--cycles", arguments.cycles}, {"--timing", arguments.timing},
+          {"--plot", arguments.plot},     {"--html", arguments.page}};
+}
+
+NamedDevices read_devices(const HapticArguments& arguments) {
+  NamedDevices named{.choices = {}, .duration = kDuration, .on_the_wall = arguments.wall};
+  double longest = 0.0;
+  bool has_mouse = false;
+  for (const std::string& word : arguments.devices) {
+    const DeviceChoice& choice = named.choices.emplace_back(read_device_choice(word));
+    if (const auto* recording = std::get_if<Recording>(&choice)) {
+      if (!arguments.duration) {
+        longest = std::max(longest, duration_of_recording(word, *recording));
+      }
+    } else if (is_live(choice)) {
+      const bool is_mouse = std::holds_alternative<BrowserDeviceOptions>(choice);
+      if (is_mouse && std::exchange(has_mouse, true)) {
+        throw std::invalid_argument(
+            "--device mouse moves one tool; name another device for the "
+            "second tool, such as simulated");
+      }
+      named.on_the_wall = true;
+      named.duration = kLiveDuration;
+    }
+    if (named.on_the_wall && arguments.latency) {
+      throw std::invalid_argument(fmt::format(
+          "--latency is for virtual time, but {} runs on the wall clock; leave one of them out",
+          is_live(choice) ? "--device " + word : "--wall"));
+    }
+  }
+  named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
+  return named;
+}
+
+SimulatedOperatorOptions simulated_hand(const HapticArguments& arguments, const HapticTool& tool,
+                                        const DeviceMapping& mapping, double duration,
+                                        std::size_t number) {
+  RandomPathOptions path;
+  path.seed = arguments.seed + 1000 * number;
+  const double reach = tool.shape.bounds().reach + tool.shape.radius();
+  path.radius = radius_of_hand(arguments.radius.value_or(2.0 * reach), mapping.scale);
+  path.fastest = arguments.speed.value_or(1.0);
+  path.slowest = std::min(path.slowest, path.fastest);
+  path.centre = mapping.X_DH;
+  path.count = static_cast<std::size_t>(std::clamp(20.0 * duration, 10.0, 1e6));
+  SimulatedOperatorOptions options;
+  options.path = random_via_points(path);
+  options.seed = path.seed;
+  options.fingers.grips = grips_of_device(mapping);
+  return options;
+}
+
+void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "The scene, .json; - for standard input")
+      ->required();
+  command
+      .add_option(
+          "--device", arguments.devices,
+          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; one per tool")
+      ->required()
+      ->expected(1)
+      ->type_name("DEVICE")
+      ->take_all();
+  CLI::Option* run = add_file(command, "-o,--output", arguments.run,
+                              "Records the motion of the tools: JSON Lines, one line per cycle");
+  add_file(command, "--ticks", arguments.ticks,
+           "Writes each tick: device, target, force, faults (.csv)");
+  add_file(command, "--cycles", arguments.cycles, "Writes each cycle of the contact loop (.csv)");
+  add_file(command, "--plot", arguments.plot, "Draws forces over time (.svg)");
+  add_file(command, "--html", arguments.page, "Makes a page that plays the run");
+  add_number(command, "--duration", arguments.duration, Range::positive,
+             "[s] Time to run. Default: 0.1 more than the longest recording, whose last sample is "
+             "held. 60 with a device in a user's hand; 10 with a simulated one");
+  add_number(command, "--latency", arguments.latency, Range::not_negative,
+             "[s] Time of one cycle of the contact loop, in virtual time");
+  add_number(command, "--radius", arguments.radius, Range::positive,
+             "[m] Reach of the simulated hand from the start. Default: twice the distance from the "
+             "middle of the tool to its farthest point");
+  add_number(command, "--speed", arguments.speed, Range::positive,
+             "[m/s] Greatest mean speed of a stroke of the simulated hand; 1 by default");
+  add_count(command, "--seed", arguments.seed, "Seed of the motion of the simulated hand");
+  CLI::Option* wall =
+      command.add_flag("--wall", arguments.wall,
+                       "Runs both loops as threads on the wall clock, not in virtual time");
+  add_file(command, "--timing", arguments.timing, "Writes histograms of all ticks (.csv)")
+      ->needs(wall);
+  command.add_flag("--force", arguments.force, "Replaces the output file")->needs(run);
+  command.footer(kFooter);
+}
+
+}  // namespace firstcontact::app
