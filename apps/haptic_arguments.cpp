@@ -29,7 +29,8 @@ DEVICE is one of these (docs/haptic_devices.md):
   haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
   plugin=FILE[,SETTINGS]      another device, by a shared library
 The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
-hardware. In virtual time the same command gives the same files.
+hardware. --live shows a session with any of them; the mouse has a live page without it.
+In virtual time the same command gives the same files.
 RUN, the output file, holds the motion of the tools. `firstcontact verify RUN` proves with other
 code that no tool passed through a body, between ticks too. `firstcontact view RUN` plays it.
 
@@ -43,8 +44,29 @@ std::vector<OutputFile> outputs_of(const HapticArguments& arguments) {
           {"--plot", arguments.plot},     {"--html", arguments.page}};
 }
 
+namespace {
+
+std::optional<BrowserDeviceOptions> live_page(const HapticArguments& arguments) {
+  if (!arguments.live) {
+    return std::nullopt;
+  }
+  const std::optional<std::uint16_t> port =
+      arguments.live->empty() ? std::optional<std::uint16_t>(0) : port_of(*arguments.live);
+  if (!port) {
+    throw std::invalid_argument(
+        fmt::format("--live: expected a port from 1 to 65535, or none for a free one; got \"{}\"",
+                    *arguments.live));
+  }
+  return BrowserDeviceOptions{.port = *port};
+}
+
+}  // namespace
+
 NamedDevices read_devices(const HapticArguments& arguments) {
-  NamedDevices named{.choices = {}, .duration = kDuration, .on_the_wall = arguments.wall};
+  NamedDevices named{.choices = {},
+                     .live = live_page(arguments),
+                     .duration = kDuration,
+                     .on_the_wall = arguments.wall || arguments.live};
   double longest = 0.0;
   bool has_mouse = false;
   for (const std::string& word : arguments.devices) {
@@ -60,13 +82,20 @@ NamedDevices read_devices(const HapticArguments& arguments) {
             "--device mouse moves one tool; name another device for the "
             "second tool, such as simulated");
       }
+      if (is_mouse && arguments.live) {
+        throw std::invalid_argument(
+            "--device mouse has a live page of its own; leave --live out, and name a port as in "
+            "mouse=8080");
+      }
       named.on_the_wall = true;
       named.duration = kLiveDuration;
     }
     if (named.on_the_wall && arguments.latency) {
       throw std::invalid_argument(fmt::format(
           "--latency is for virtual time, but {} runs on the wall clock; leave one of them out",
-          is_live(choice) ? "--device " + word : "--wall"));
+          is_live(choice)  ? "--device " + word
+          : arguments.wall ? "--wall"
+                           : "--live"));
     }
   }
   named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
@@ -123,6 +152,13 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
   CLI::Option* wall =
       command.add_flag("--wall", arguments.wall,
                        "Runs both loops as threads on the wall clock, not in virtual time");
+  command
+      .add_option_function<std::string>(
+          "--live", [&arguments](const std::string& port) { arguments.live = port; },
+          "Shows the session on a live page, to this machine only; on the wall clock, as with "
+          "--wall")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
   add_file(command, "--timing", arguments.timing, "Writes histograms of all ticks (.csv)")
       ->needs(wall);
   command.add_flag("--force", arguments.force, "Replaces the output file")->needs(run);

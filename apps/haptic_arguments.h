@@ -31,6 +31,7 @@ struct HapticArguments {
   std::optional<double> radius;    // [m]
   std::optional<double> speed;     // [m/s]
   std::size_t seed = 1;
+  std::optional<std::string> live;  // Port of the live page; "" for a free one.
   bool wall = false;
   bool force = false;
 };
@@ -38,8 +39,9 @@ struct HapticArguments {
 /// The devices before they are opened.
 struct NamedDevices {
   std::vector<DeviceChoice> choices;
-  double duration = 0.0;     // [s]  Of the session.
-  bool on_the_wall = false;  // By request, or because a hand moves one of them.
+  std::optional<BrowserDeviceOptions> live;  // Of a page that only shows the session.
+  double duration = 0.0;                     // [s]  Of the session.
+  bool on_the_wall = false;                  // By request, or because a hand moves one of them.
 };
 
 /// Adds the options and the footer of the command.

@@ -44,14 +44,6 @@ DeviceWord cut(std::string_view word) {
   throw ParseError("--device " + word, expected);
 }
 
-/// The port of a whole number from 1 on; none if the text is something else.
-std::optional<std::uint16_t> port_of(std::string_view text) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  const bool is_port = error == std::errc() && end == text.data() + text.size() && port > 0;
-  return is_port ? std::optional(port) : std::nullopt;
-}
-
 /// The options of an address "ws://HOST:PORT", whose scheme may be left out.
 HaplyOptions haply_at(const std::string& word, std::string_view place) {
   if (place.starts_with(kScheme)) {
@@ -95,6 +87,13 @@ Recording recording_of(const std::string& word) {
 }
 
 }  // namespace
+
+std::optional<std::uint16_t> port_of(std::string_view text) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  const bool is_port = error == std::errc() && end == text.data() + text.size() && port > 0;
+  return is_port ? std::optional(port) : std::nullopt;
+}
 
 DeviceChoice read_device_choice(const std::string& word) {
   const DeviceWord device = cut(word);

@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <firstcontact/haptic_devices/browser_device.h>
@@ -31,6 +33,9 @@ struct PluginChoice {
 /// A device that is named but not open yet.
 using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptions,
                                   SpaceMouseOptions, HaplyOptions, PluginChoice>;
+
+/// The port of a whole number from 1 on; none if the text is something else.
+[[nodiscard]] std::optional<std::uint16_t> port_of(std::string_view text);
 
 /// Reads one word: "simulated", "mouse", "mouse=PORT", "spacemouse", "spacemouse=SOCKET", "haply",
 /// "haply=ws://HOST:PORT", "plugin=FILE", "plugin=FILE,SETTINGS", or else the path of a recording.

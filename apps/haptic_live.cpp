@@ -26,7 +26,8 @@ std::string numbers(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-HapticLive::HapticLive(const HapticSetup& setup, std::size_t tool) : setup_(setup), tool_(tool) {
+HapticLive::HapticLive(const HapticSetup& setup, std::optional<std::size_t> mouse)
+    : setup_(setup), mouse_(mouse) {
   for (const HapticTool& each : setup.scene.tools) {
     poses_.emplace_back(each.X_WB);
   }
@@ -53,25 +54,34 @@ std::string HapticLive::page(const RunHeader& header, std::string_view page_temp
   still.add(step);
   ShapeCache cache;
   std::string text = still.write(page_template, load_scene(header.scene, cache));
-  text.insert(
-      text.rfind("</body>"),
-      fmt::format("<script id=\"firstcontact-live\" type=\"application/json\">{{\"tool\":{}{}}}"
-                  "</script>\n",
-                  setup_.bodies[tool_],
-                  grips() == 0 ? std::string()
-                               : fmt::format(",\"links\":[{}],\"grips\":{}",
-                                             fmt::join(links(), ","), grips())));
+  const std::string mouse = mouse_ ? fmt::format(",\"mouse\":{},\"grips\":{}", *mouse_,
+                                                 setup_.options.mappings[*mouse_].grips.size())
+                                   : std::string();
+  text.insert(text.rfind("</body>"),
+              fmt::format("<script id=\"firstcontact-live\" type=\"application/json\">"
+                          "{{\"tools\":[{}]{}}}</script>\n",
+                          tools_json(), mouse));
   return text;
 }
 
-/// The bodies that hang on the tool.
-std::vector<std::size_t> HapticLive::links() const {
+/// The tools: their bodies, and the bodies that hang on them.
+std::string HapticLive::tools_json() const {
+  std::string text;
+  for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+    text += fmt::format("{}{{\"body\":{},\"links\":[{}]}}", k == 0 ? "" : ",", setup_.bodies[k],
+                        fmt::join(links(k), ","));
+  }
+  return text;
+}
+
+/// The bodies that hang on a tool.
+std::vector<std::size_t> HapticLive::links(std::size_t tool) const {
   std::vector<std::size_t> found;
   std::size_t next = first_link_;
   for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
     for (const HapticLink& link : setup_.scene.tools[k].links) {
       if (link.shape) {
-        if (k == tool_) {
+        if (k == tool) {
           found.push_back(setup_.bodies[next]);
         }
         ++next;
@@ -92,28 +102,29 @@ bool HapticLive::is_due(const ForceTick& tick) const {
   return shown_ns_ == 0 || tick.time_ns - shown_ns_ >= kPictureNs;
 }
 
-/// The pose at which the page begins to drag: the mapping has the handle there before its first
-/// pose.
-Pose HapticLive::handle(const ToolTick& tool) const {
-  return tool.device.status == DeviceStatus::waiting ? setup_.options.mappings[tool_].X_DH
-                                                     : tool.device.X_DH;
-}
-
-/// The target as the page shows it: beside the tool by the way between their centres. Where a tool
-/// is only turned, its origin may be far ahead, and the hand is not.
-Pose HapticLive::shown_target(const ToolTick& tool) const {
-  const Pose& X_WB = *poses_[tool_];
-  const Eigen::Vector3d& p_BC = setup_.scene.tools[tool_].p_BC;
-  return {tool.centre - X_WB.rotation * p_BC, tool.target.rotation};
+/// The handle that the mouse moves; nothing without the mouse.
+std::string HapticLive::mouse_json(const ForceTick& tick) const {
+  if (!mouse_) {
+    return {};
+  }
+  const DeviceState& device = tick.tools[*mouse_].device;
+  // The mapping has the handle at this pose before the page sends its first one.
+  const Pose& X_DH =
+      device.status == DeviceStatus::waiting ? setup_.options.mappings[*mouse_].X_DH : device.X_DH;
+  return fmt::format(R"("handle":[{}],"grip":{},)", numbers(X_DH), device.grips[0]);
 }
 
 std::string HapticLive::picture(const ForceTick& tick) {
   shown_ns_ = tick.time_ns;
-  const ToolTick& tool = tick.tools[tool_];
-  std::string text = fmt::format(R"({{"handle":[{}],"target":[{}],"force":[{}],"torque":[{}],)",
-                                 numbers(handle(tool)), numbers(shown_target(tool)),
-                                 numbers(tool.force_W), numbers(tool.torque_W));
-  text += grips() == 0 ? std::string() : fmt::format("\"grip\":{},", tool.device.grips[0]);
+  std::string text = "{\"tools\":[";
+  for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+    const ToolTick& tool = tick.tools[k];
+    const double scale = setup_.options.mappings[k].scale;  // The device feels so much more.
+    text += fmt::format(R"({}{{"target":[{}],"force":[{}],"torque":[{}]}})", k == 0 ? "" : ",",
+                        numbers(tool.target), numbers(Eigen::Vector3d(scale * tool.force_W)),
+                        numbers(tool.torque_W));
+  }
+  text += "]," + mouse_json(tick);
   text += "\"bodies\":[";
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     if (poses_[k]) {  // The first tool always has one.

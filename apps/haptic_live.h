@@ -17,12 +17,12 @@
 
 namespace firstcontact::app {
 
-/// Collects the data of the view: poses, contacts and forces. One tool follows the mouse.
+/// Collects the data of the view: poses, devices, contacts and forces of all tools.
 class HapticLive {
  public:
   /// @param setup  lives as long as this object
-  /// @param tool   its number
-  HapticLive(const HapticSetup& setup, std::size_t tool);
+  /// @param mouse  the number of the tool that follows the mouse of the page, if any
+  HapticLive(const HapticSetup& setup, std::optional<std::size_t> mouse);
 
   /// The viewer's page, with bodies at rest until messages move them.
   [[nodiscard]] std::string page(const RunHeader& header, std::string_view page_template) const;
@@ -36,13 +36,12 @@ class HapticLive {
   [[nodiscard]] std::string picture(const ForceTick& tick);
 
  private:
-  [[nodiscard]] std::vector<std::size_t> links() const;
-  [[nodiscard]] std::size_t grips() const { return setup_.options.mappings[tool_].grips.size(); }
-  [[nodiscard]] Pose handle(const ToolTick& tool) const;
-  [[nodiscard]] Pose shown_target(const ToolTick& tool) const;
+  [[nodiscard]] std::vector<std::size_t> links(std::size_t tool) const;
+  [[nodiscard]] std::string tools_json() const;
+  [[nodiscard]] std::string mouse_json(const ForceTick& tick) const;
 
   const HapticSetup& setup_;
-  std::size_t tool_;
+  std::optional<std::size_t> mouse_;
   std::vector<std::optional<Pose>> poses_;  // X_WB of tools, and of members that move.
   std::size_t first_link_ = 0;              // Index of the first link among the members.
   std::vector<HapticTouch> touches_;

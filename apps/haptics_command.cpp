@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -55,7 +57,12 @@ class HapticsRun {
                       setup_.scene.tools.size(), arguments.devices.size()));
     }
     open_devices();
-    if (!arguments.page.empty() || mouse_ != nullptr) {
+    if (named_.live) {
+      viewing_.emplace(*named_.live);
+      server_ = &*viewing_;
+      live_.emplace(setup_, std::nullopt);
+    }
+    if (!arguments.page.empty() || live_) {
       template_ = viewer_page();  // A missing viewer is reported before the work.
     }
   }
@@ -121,7 +128,7 @@ class HapticsRun {
       require_grips(k);
       pointers_.push_back(devices_[k].get());
       if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
-        mouse_ = mouse;
+        server_ = mouse;
         live_.emplace(setup_, k);
       }
     }
@@ -177,9 +184,11 @@ class HapticsRun {
                                        arguments_.force ? HeldRun::replaced : HeldRun::kept));
     }
     if (live_) {
-      mouse_->serve(live_->page(record_->header(), template_));
-      say(fmt::format("http://127.0.0.1:{}/ has the page: drag the tool there; Ctrl-C ends\n",
-                      mouse_->port()));
+      server_->serve(live_->page(record_->header(), template_));
+      say(fmt::format("http://127.0.0.1:{}/ {}; Ctrl-C ends\n", server_->port(),
+                      !viewing_          ? "has the page: drag the tool there"
+                      : waits_for_page() ? "shows the session, which begins when the page is open"
+                                         : "shows the session"));
       flush_stdout();
     }
     for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
@@ -196,7 +205,7 @@ class HapticsRun {
       step_devices_.add(tick.time_ns, record_->devices(tick));
     }
     if (live_ && live_->is_due(tick)) {
-      mouse_->show(live_->picture(tick));
+      server_->show(live_->picture(tick));
     }
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size(), columns()));
@@ -256,7 +265,22 @@ class HapticsRun {
     }
   }
 
+  /// Whether the session would be over before a user can open the page.
+  [[nodiscard]] bool waits_for_page() const {
+    return viewing_ && std::ranges::none_of(named_.choices, is_live);
+  }
+
+  void wait_for_page() const {
+    constexpr std::chrono::milliseconds kPause(20);
+    while (viewing_->counts().connections == 0 && !interrupt_.token().stop_requested()) {
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
   void run_on_the_wall() {
+    if (waits_for_page()) {
+      wait_for_page();
+    }
     wall_ = run_wall_session(
         setup_.scene, setup_.options, pointers_, {.duration = named_.duration},
         [this](const ForceTick& tick) { take(tick); },
@@ -346,8 +370,9 @@ class HapticsRun {
   std::int64_t begin_ns_ = 0;
   HapticReport report_;
   std::optional<WallSessionReport> wall_;
-  BrowserDevice* mouse_ = nullptr;  // One of the devices, if any.
-  std::optional<HapticLive> live_;  // Only with the mouse.
+  std::optional<BrowserDevice> viewing_;  // Serves a page that moves no tool.
+  BrowserDevice* server_ = nullptr;       // Of the live page: it, or the mouse among the devices.
+  std::optional<HapticLive> live_;
   bool is_stopped_ = false;
 };
 

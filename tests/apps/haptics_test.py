@@ -298,22 +298,23 @@ class Haptics(tool_test.ToolTest):
     def test_follows_the_mouse_on_its_page(self):
         process, port = self.live()
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=20) as page:
-            self.assertIn(b'<script id="firstcontact-live" type="application/json">{"tool":1}', page.read())
+            self.assertIn(b'<script id="firstcontact-live" type="application/json">'
+                          b'{"tools":[{"body":1,"links":[]}],"mouse":0,"grips":0}</script>', page.read())
         page = haptic_services.Page(port, f"http://127.0.0.1:{port}")
         self.addCleanup(page.close)
         self.assertEqual(page.status, 101)
         self.assertEqual(page.picture()["handle"], [0, 0, 0, 1, 0, 0, 0])
         page.send('{"position": [0, 0, -0.025], "rotation": [1, 0, 0, 0]}')
         picture = page.picture()
-        while picture["force"][2] < 4.9:  # A spring of 1,000 N/m, 5 mm in the plate.
+        while picture["tools"][0]["force"][2] < 4.9:  # A spring of 1,000 N/m, 5 mm in the plate.
             picture = page.picture()
-        self.assertAlmostEqual(picture["target"][2], 0.015)
+        self.assertAlmostEqual(picture["tools"][0]["target"][2], 0.015)
         self.assertEqual(picture["bodies"][0][0], 1)
         self.assertGreater(picture["bodies"][0][3], 0.02)
         self.assertGreater(len(picture["contacts"]), 2)
         page.send('{"position": [0, 0, 1e9], "rotation": [1, 0, 0, 0]}')
         page.send('{"position": [0, 0, 0.01], "rotation": [1, 0, 0, 0]}')
-        while picture["force"][2] > 0:
+        while picture["tools"][0]["force"][2] > 0:
             picture = page.picture()
         process.send_signal(signal.SIGINT)
         stdout, _ = process.communicate(timeout=60)
@@ -331,6 +332,67 @@ class Haptics(tool_test.ToolTest):
         ticks = re.findall(r'text-anchor="middle">([\d.]+)</text>', plot)
         unit = re.search(r"time \[(\w+)\]", plot).group(1)
         self.assertLess(float(ticks[-1]) * {"s": 1.0, "ms": 1e-3}[unit], 40.0)  # Planned were 60 s.
+
+    def shown(self, *arguments):
+        """Starts a session with --live; gives the process, its first line and the port."""
+        if not self.has_viewer():
+            self.skipTest("built without the viewer")
+        process = self.start("haptics", "scene.json", *arguments, "-o", "run.jsonl")
+        line = process.stdout.readline()
+        return process, line, int(re.match(r"http://127.0.0.1:(\d+)/ ", line).group(1))
+
+    def test_shows_a_recording_from_its_begin_on(self):
+        self.file("scene.json", scene())
+        self.recording(*((k * 1_000_000, max(-0.025, -5e-5 * k)) for k in range(800)))
+        process, line, port = self.shown("--device", "hand.csv", "--live")
+        self.assertIn("begins when the page is open", line)
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=20) as page:
+            self.assertIn(b'<script id="firstcontact-live" type="application/json">'
+                          b'{"tools":[{"body":1,"links":[]}]}</script>', page.read())
+        page = haptic_services.Page(port, f"http://127.0.0.1:{port}")
+        self.addCleanup(page.close)
+        first = page.picture()
+        self.assertNotIn("handle", first)
+        self.assertGreater(first["tools"][0]["target"][2], 0.03)
+        picture = first
+        while picture["tools"][0]["force"][2] < 4.9:
+            picture = page.picture()
+        self.assertAlmostEqual(picture["tools"][0]["target"][2], 0.015, delta=1e-4)
+        self.assertGreater(picture["bodies"][0][3], 0.02)
+        self.assertGreater(len(picture["contacts"]), 2)
+        page.send('{"position": [0, 0, 1], "rotation": [1, 0, 0, 0]}')  # Moves nothing.
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+
+    def test_shows_devices_of_hands_at_once(self):
+        daemon = haptic_services.SpaceNavigator(self.folder / "spnav.sock")
+        self.addCleanup(daemon.close)
+        self.file("scene.json", scene())
+        process, line, _ = self.shown("--device", f"spacemouse={daemon.path}", "--live", "--duration", "0.3")
+        self.assertNotIn("begins", line)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
+
+    def test_ends_while_it_waits_for_its_page(self):
+        self.file("scene.json", scene())
+        process, _, _ = self.shown("--device", "simulated", "--live")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+
+    def test_shows_nothing_live_in_virtual_time(self):
+        self.file("scene.json", scene())
+        self.assert_writes_nothing(self.haptics("--device", "simulated", "--live", "--latency", "0.01"),
+                                   "--latency is for virtual time, but --live runs on the wall clock")
+        self.assert_writes_nothing(self.haptics("--device", "mouse", "--live"), "mouse has a live page of its own")
+        for port in ("0", "70000", "page"):
+            self.assert_writes_nothing(self.haptics("--device", "simulated", "--live", port), "--live", f'got "{port}"')
+        if self.has_viewer():
+            with socket.create_server(("127.0.0.1", 0)) as taken:
+                port = taken.getsockname()[1]
+                self.assert_writes_nothing(self.haptics("--device", "simulated", "--live", str(port)),
+                                           f"127.0.0.1:{port}", "another port")
 
     def test_gives_the_tool_to_its_own_page_only(self):
         process, port = self.live()

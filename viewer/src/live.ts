@@ -1,31 +1,43 @@
-/// A page on which the mouse is the haptic device: the messages to and from the tool.
+/// A page of a live session: the messages to it, and those of the mouse where it moves a tool.
 
 import type { QuaternionWxyz, Vector3 } from "./data/result";
-import type { Pose } from "./motion/motion";
+import { place, type Pose } from "./motion/motion";
 import { add, compose, distance, length, turn, unit, unitQuaternion } from "./motion/vector";
+
+/// A tool and its device.
+export interface ToolPicture {
+  readonly target: readonly number[]; ///< Where the device leads it: x, y, z [m], w, x, y, z.
+  readonly force: Vector3; ///< [N] On the hand.
+  readonly torque: Vector3; ///< [N m]
+}
 
 /// A picture of the session, 60 times a second.
 export interface Picture {
-  readonly handle: readonly number[]; ///< Of the device: x, y, z [m], w, x, y, z.
-  readonly grip?: number; ///< Of the device: 0 open, 1 closed.
-  readonly target: readonly number[]; ///< To which it leads the tool.
-  readonly force: Vector3; ///< [N] On the hand.
-  readonly torque: Vector3; ///< [N m]
+  readonly tools: readonly ToolPicture[];
+  readonly handle?: readonly number[]; ///< Of the mouse: x, y, z [m], w, x, y, z.
+  readonly grip?: number; ///< Of the mouse: 0 open, 1 closed.
   readonly bodies: readonly (readonly number[])[]; ///< Number of the body, then its pose.
   readonly contacts: readonly Vector3[];
 }
 
-/// The tool that follows the mouse: a body, its links, and the number of grips that move the links.
+/// A tool: its body, and the bodies that hang on it.
 export interface LiveTool {
-  readonly tool: number;
-  readonly links?: readonly number[];
+  readonly body: number;
+  readonly links: readonly number[];
+}
+
+export interface LiveSession {
+  readonly tools: readonly LiveTool[];
+  /// The number of the tool that follows the mouse; left out where none does.
+  readonly mouse?: number;
+  /// The number of grips of that tool.
   readonly grips?: number;
 }
 
-/// The tool of a page that is live; else null.
-export function liveTool(): LiveTool | null {
+/// The session of a page that is live; else null.
+export function liveSession(): LiveSession | null {
   const text = document.getElementById("firstcontact-live")?.textContent;
-  return text ? (JSON.parse(text) as LiveTool) : null;
+  return text ? (JSON.parse(text) as LiveSession) : null;
 }
 
 export const poseFrom = ([x, y, z, w, i, j, k]: readonly number[]): Pose => ({
@@ -65,7 +77,7 @@ export class Connection {
     this.socket = new WebSocket(`ws://${location.host}/live`);
     this.socket.addEventListener("message", ({ data }) => {
       const picture = JSON.parse(data as string) as Picture;
-      if (!this.begun) {
+      if (!this.begun && picture.handle) {
         this.begun = true;
         this.handle.set(poseFrom(picture.handle));
         this.handle.grip = picture.grip ?? 0;
@@ -84,8 +96,15 @@ export class Connection {
   }
 }
 
+/// The pose of a body in a picture; null where it has none.
+export function poseIn({ bodies }: Picture, body: number): Pose | null {
+  const found = bodies.find(([number]) => number === body);
+  return found ? poseFrom(found.slice(1)) : null;
+}
+
 /// [m] The distance between the hand and the tool, which contacts hold back.
-export function lead({ bodies, target }: Picture, tool: number): number {
-  const body = bodies.find(([number]) => number === tool);
-  return body ? distance(poseFrom(target).position, poseFrom(body.slice(1)).position) : 0;
+///
+/// @param centre  of the tool, in its frame: it follows the handle
+export function lead({ target }: ToolPicture, pose: Pose, centre: Vector3): number {
+  return distance(place(poseFrom(target), centre), place(pose, centre));
 }

@@ -1,13 +1,21 @@
-/// Puts the page of a live session together: the bodies, the mouse that moves one, the forces.
+/// Puts the page of a live session together: the bodies, the forces, and the mouse that moves one.
 
 import { Vector3 as Vector } from "three";
 import { element } from "./core/dom";
-import { forceText, lengthText, number } from "./core/format";
+import { forceText, lengthText, torqueText } from "./core/format";
 import type { Vector3 } from "./data/result";
 import { Display } from "./display";
-import { Connection, lead, poseFrom, type LiveTool, type Picture } from "./live";
+import {
+  Connection,
+  lead,
+  poseFrom,
+  poseIn,
+  type LiveSession,
+  type LiveTool,
+  type Picture,
+} from "./live";
 import type { Model } from "./model";
-import { add, length, scale } from "./motion/vector";
+import { add, length, scale, zero } from "./motion/vector";
 import { factList } from "./panels/facts";
 import { Player } from "./player";
 import { Theme } from "./theme";
@@ -19,14 +27,13 @@ const turnPerPixel = 0.005; // [rad]
 const wheelPixels = 0.2; // Of a drag, for each pixel of the wheel.
 
 /// Drags that begin on the tool move it; with Shift they turn it. The wheel pushes it meanwhile.
-function listenToDrags(view: SceneView, live: LiveTool, connection: Connection): void {
-  const { tool, links = [] } = live;
+function listenToDrags(view: SceneView, tool: LiveTool, connection: Connection): void {
   const { canvas, camera } = view;
   const side = (column: number): Vector3 =>
     new Vector().setFromMatrixColumn(camera.matrixWorld, column).toArray();
   const perPixel = (): number => {
     const depth = camera.position.distanceTo(
-      new Vector().setFromMatrixPosition(view.bodies[tool]!.group.matrix),
+      new Vector().setFromMatrixPosition(view.bodies[tool.body]!.group.matrix),
     );
     const slope = Math.tan((0.5 * camera.fov * Math.PI) / 180);
     return (2 * depth * slope) / canvas.clientHeight;
@@ -35,7 +42,7 @@ function listenToDrags(view: SceneView, live: LiveTool, connection: Connection):
     add(scale(x, side(right)), scale(y, side(up)));
   const isTool = ({ x, y }: PointerEvent): boolean => {
     const hit = view.hitAt(x, y)?.object.userData as { body: number } | undefined;
-    return hit !== undefined && (hit.body === tool || links.includes(hit.body));
+    return hit !== undefined && (hit.body === tool.body || tool.links.includes(hit.body));
   };
   let held = false;
   canvas.parentElement!.addEventListener(
@@ -94,44 +101,73 @@ function gripSlider(connection: () => Connection): HTMLElement {
   return element("label.grip", {}, "Grip ", slider);
 }
 
-/// @param live  what follows the mouse
-export function startLive(model: Model, live: LiveTool): void {
-  const { tool } = live;
+/// The centre of a tool, in its frame: it follows the handle.
+const centreOf = (model: Model, { body }: LiveTool): Vector3 =>
+  model.bodies[body]!.course?.centre ?? zero;
+
+/// The forces on the hands, tool by tool.
+function forceFacts(model: Model, { tools }: LiveSession, picture: Picture): [string, string][] {
+  return tools.flatMap((tool, k): [string, string][] => {
+    const { name } = model.bodies[tool.body]!;
+    const [on, ahead] =
+      tools.length > 1 ? [` on ${name}`, `Hand ahead of ${name} by`] : ["", "The hand is ahead by"];
+    const shown = picture.tools[k]!;
+    const pose = poseIn(picture, tool.body);
+    return [
+      [`Force${on}`, forceText(length(shown.force))],
+      [`Torque${on}`, torqueText(length(shown.torque))],
+      [ahead, lengthText(pose ? lead(shown, pose, centreOf(model, tool)) : 0)],
+    ];
+  });
+}
+
+const hints = (): HTMLElement[] => [
+  element("p.hint", {}, "Drag the tool to move it, with Shift to turn it."),
+  element("p.hint", {}, "The wheel pushes a held tool away. Drags beside it turn the view."),
+];
+
+export function startLive(model: Model, live: LiveSession): void {
   document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
-  const display = new Display();
   const stage = element("main.stage");
   const facts = element("div");
   const state = element("p", { role: "status" }, "Connecting …");
+  const mouse = live.mouse === undefined ? null : live.tools[live.mouse]!;
   const card = element(
     "section.card",
     { "aria-label": "Live" },
     element("h1", {}, model.title),
     state,
     facts,
-    element("p.hint", {}, "Drag the tool to move it, with Shift to turn it."),
-    element("p.hint", {}, "The wheel pushes a held tool away. Drags beside it turn the view."),
+    ...(mouse ? hints() : []),
   );
   if (live.grips) {
     card.append(gripSlider(() => connection));
   }
   const panel = element("aside.panel", { "aria-label": "Details" }, card);
   document.body.append(element("div.app.panel-open", {}, stage, panel));
-  const view = new SceneView(model, new Player(model.duration, null), display, stage);
-  const markers = new LiveMarkers(view.bounds.bodiesAt([model.bodies[tool]!], 0).radius);
+  const view = new SceneView(model, new Player(model.duration, null), new Display(), stage);
+  const markers = new LiveMarkers(
+    live.tools.map((tool) => ({
+      view: view.bodies[tool.body]!,
+      centre: centreOf(model, tool),
+      size: view.bounds.bodiesAt([model.bodies[tool.body]!], 0).radius,
+    })),
+  );
   view.scene.add(markers.group);
   const show = (picture: Picture): void => {
     for (const [body, ...pose] of picture.bodies) {
       setPose(view.bodies[body!]!.group, poseFrom(pose));
     }
     markers.show(picture);
-    state.textContent = "The tool passes through nothing.";
+    state.textContent =
+      live.tools.length > 1
+        ? "The tools pass through nothing."
+        : "The tool passes through nothing.";
     facts.replaceChildren(
       factList([
-        ["Force", forceText(length(picture.force))],
-        ["Torque", `${number(length(picture.torque), 3)} N m`],
+        ...forceFacts(model, live, picture),
         ["Contacts", String(picture.contacts.length)],
-        ["The hand is ahead by", lengthText(lead(picture, tool))],
       ]),
     );
     view.requestFrame();
@@ -141,7 +177,12 @@ export function startLive(model: Model, live: LiveTool): void {
   });
   theme.name.subscribe(() => view.setColors(theme.color("stage"), theme.color("grid")));
   view.start();
-  setTimeout(() => view.addEdges());
-  listenToDrags(view, live, connection);
-  Object.assign(window, { firstcontact: { model, view, connection } });
+  setTimeout(() => {
+    view.addEdges();
+    markers.makeGhosts();
+  });
+  if (mouse) {
+    listenToDrags(view, mouse, connection);
+  }
+  Object.assign(window, { firstcontact: { model, view, connection, markers } });
 }

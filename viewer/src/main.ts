@@ -12,7 +12,7 @@ import { download, fileName } from "./export/download";
 import { animationOf } from "./export/glb";
 import { listenToKeys } from "./keyboard";
 import { linkMoments, momentOf, resultLink, resultOf } from "./link";
-import { liveTool } from "./live";
+import { liveSession } from "./live";
 import { startLive } from "./live_page";
 import { isDrawn, Model, type Coordinate } from "./model";
 import { bodiesPanel } from "./panels/bodies";
@@ -212,13 +212,13 @@ function start(model: Model, result: number | null = null): void {
 try {
   const text = document.getElementById("firstcontact-data")?.textContent ?? "";
   const list = readResultList(text);
-  const tool = liveTool();
+  const live = liveSession();
   if (list) {
     showList(list);
   } else if (wantsPicture(location.hash)) {
     sendPicture(new Model(readPageData(text)));
-  } else if (tool !== null) {
-    startLive(new Model(readPageData(text)), tool);
+  } else if (live !== null) {
+    startLive(new Model(readPageData(text)), live);
   } else {
     start(new Model(readPageData(text)));
   }

@@ -4,7 +4,7 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { fileURLToPath } from "node:url";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import { Handle, lead, type Picture } from "../src/live";
+import { Handle, lead, poseIn, type Picture, type ToolPicture } from "../src/live";
 import { distance, rotate } from "../src/motion/vector";
 import { canLook, launch, tool } from "./browser";
 
@@ -23,17 +23,16 @@ describe("a handle", () => {
     expect(Math.hypot(...handle.rotation)).toBeCloseTo(1, 12);
   });
 
-  test("is ahead of the tool by the distance of their places", () => {
-    const picture: Picture = {
-      handle: [0, 0, 0, 1, 0, 0, 0],
-      target: [0, 0, -3, 1, 0, 0, 0],
+  test("is ahead of the tool by the distance of their centres", () => {
+    const tool: ToolPicture = {
+      target: [0, 0, -3, 0, 1, 0, 0], // Turned by half a turn about x.
       force: [0, 0, 0],
       torque: [0, 0, 0],
-      bodies: [[1, 0, 0, 1, 1, 0, 0, 0]],
-      contacts: [],
     };
-    expect(lead(picture, 1)).toBe(4);
-    expect(lead(picture, 0)).toBe(0);
+    const picture: Picture = { tools: [tool], bodies: [[1, 0, 0, 1, 1, 0, 0, 0]], contacts: [] };
+    expect(poseIn(picture, 0)).toBeNull();
+    expect(lead(tool, poseIn(picture, 1)!, [0, 0, 0])).toBe(4);
+    expect(lead(tool, poseIn(picture, 1)!, [0, 0, 0.5])).toBe(5);
   });
 });
 
@@ -75,8 +74,9 @@ describe.skipIf(!canLook)("a live page", () => {
   afterEach(() => session?.kill("SIGKILL"));
 
   /// A session whose scene comes by standard input; its page is open.
-  async function open(asked: object = scene): Promise<void> {
-    session = spawn(tool!, ["haptics", "-", "--device", "mouse"]);
+  async function open(asked: object = scene, ...options: string[]): Promise<void> {
+    const devices = options.length > 0 ? options : ["--device", "mouse"];
+    session = spawn(tool!, ["haptics", "-", ...devices]);
     session.stdin!.end(JSON.stringify(asked));
     const address = await new Promise<string>((resolve, reject) => {
       session.stdout!.once("data", (text: Buffer) => resolve(String(text).split(" ")[0]!));
@@ -84,7 +84,7 @@ describe.skipIf(!canLook)("a live page", () => {
     });
     page = await browser.newPage({ viewport: { width: 900, height: 600 } });
     await page.goto(address);
-    await page.getByText("Force").waitFor();
+    await page.getByText("Force").first().waitFor();
   }
 
   const height = (): Promise<number> =>
@@ -124,5 +124,37 @@ describe.skipIf(!canLook)("a live page", () => {
     expect(await right()).toBeGreaterThan(0.025); // Half of the cube and of the jaw.
     await page.getByLabel("Grip").fill("0");
     await page.waitForFunction("firstcontact.view.bodies[2].group.matrix.elements[12] > 0.0399");
+  });
+
+  test("shows two tools that other devices move", { timeout: 60_000 }, async () => {
+    const two = {
+      ...scene,
+      bodies: [
+        ...scene.bodies,
+        { ...scene.bodies[1]!, name: "block", pose: { position: [0.07, 0, 0.05] } },
+      ],
+      haptics: { tools: [{ body: "peg" }, { body: "block" }] },
+    };
+    const hand = ["--device", "simulated"];
+    await open(two, ...hand, ...hand, "--live", "--duration", "30", "--speed", "0.5");
+    const ghost = (tool: number): Promise<number[]> =>
+      page.evaluate(
+        `[...firstcontact.markers.ghosts.children[${tool}].matrix.elements.slice(12, 15)]`,
+      );
+    const before = [await ghost(0), await ghost(1)] as [number[], number[]];
+    const moved = (tool: number): Promise<unknown> =>
+      page.waitForFunction(
+        `Math.hypot(...[...firstcontact.markers.ghosts.children[${tool}].matrix.elements.slice(12, 15)]
+          .map((x, k) => x - ${JSON.stringify(before[tool])}[k])) > 0.005`,
+      );
+    await Promise.all([moved(0), moved(1)]);
+    // A hand that goes anywhere pushes the tools on the plate, or on each other.
+    await page.waitForFunction(
+      "firstcontact.markers.group.children.some(({ type, visible }) => type === 'Mesh' && visible)",
+    );
+    const said = await page.locator(".panel").innerText();
+    expect(said).toMatch(/Force on peg[\s\S]*Force on block/);
+    expect(said).not.toContain("Drag the tool");
+    expect(said).toContain("The tools pass through nothing.");
   });
 });

@@ -148,7 +148,7 @@ struct BrowserDevice::Data {
       return;
     }
     if (has_page()) {
-      end(connection, "403 Forbidden", "another page moves the tool");
+      end(connection, "403 Forbidden", "another page has the session");
       return;
     }
     connection.reader.emplace(detail::WebSocketSide::server, kMostMessage);

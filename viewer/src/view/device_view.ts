@@ -48,9 +48,7 @@ export class DeviceMarkers {
   makeGhosts(): void {
     dispose(this.ghosts);
     for (const { body } of this.devices) {
-      const ghost = this.views[body]!.ghost(0, ghostOpacity);
-      ghost.traverse(seeThrough);
-      this.ghosts.add(ghost);
+      this.ghosts.add(ghostOfTool(this.views[body]!));
     }
     this.step = -1;
   }
@@ -80,6 +78,13 @@ export class DeviceMarkers {
     });
     this.step = step;
   }
+}
+
+/// A copy of a tool that shows where its device leads it.
+export function ghostOfTool(view: BodyView): Group {
+  const ghost = view.ghost(0, ghostOpacity);
+  ghost.traverse(seeThrough);
+  return ghost;
 }
 
 /// A device may lead its tool into a body, which would hide the ghost.

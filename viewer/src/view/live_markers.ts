@@ -1,26 +1,39 @@
-/// The contacts of a live session, and the force on the hand.
+/// The contacts of a live session, where devices lead the tools, and the forces on the hands.
 
 import {
-  ArrowHelper,
   BufferGeometry,
   Float32BufferAttribute,
   Group,
-  type LineBasicMaterial,
-  type MeshBasicMaterial,
+  Mesh,
   Points,
   PointsMaterial,
+  Quaternion,
   Vector3,
 } from "three";
-import type { Picture } from "../live";
-import { roundDot } from "./contact_view";
+import type { Vector3 as Triple } from "../data/result";
+import { poseFrom, poseIn, type Picture } from "../live";
+import { place } from "../motion/motion";
+import { length } from "../motion/vector";
+import type { BodyView } from "./body_view";
+import { overlay, roundDot } from "./contact_view";
+import { ghostOfTool } from "./device_view";
+import { arrowGeometry } from "./force_view";
+import { dispose, setPose } from "./geometry_view";
 
 const dotSize = 8; // [px]
-const perSize = 0.5; // Of an arrow of a newton, in radii of the tool.
-const mostLength = 3; // In radii of the tool.
-const color = 0xd9480f;
+const perSize = 0.3; // Of an arrow of a newton, in radii of the tool.
+const mostLength = 2; // In radii of the tool.
+
+/// A tool that is drawn with its device.
+export interface MarkedTool {
+  readonly view: BodyView;
+  readonly centre: Triple; ///< In the frame of the tool: the force acts there.
+  readonly size: number; ///< [m] Radius of the tool.
+}
 
 export class LiveMarkers {
   readonly group = new Group();
+  readonly ghosts = new Group();
   private readonly dots = new Points(
     new BufferGeometry(),
     new PointsMaterial({
@@ -32,38 +45,48 @@ export class LiveMarkers {
       depthWrite: false,
     }),
   );
-  private readonly arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), 1, color);
+  private readonly arrows: readonly Mesh[];
 
-  /// @param size  [m] radius of the tool
-  constructor(private readonly size: number) {
+  constructor(private readonly tools: readonly MarkedTool[]) {
     this.dots.frustumCulled = false;
     this.dots.raycast = () => {};
     this.dots.renderOrder = 12;
-    this.group.add(this.dots, this.arrow);
-    this.arrow.visible = false;
-    this.arrow.traverse((part) => {
-      part.renderOrder = 11;
-      part.raycast = () => {};
+    this.arrows = tools.map(() => {
+      const arrow = new Mesh(arrowGeometry(), overlay(0.9));
+      arrow.renderOrder = 11;
+      arrow.raycast = () => {};
+      arrow.visible = false;
+      return arrow;
     });
-    for (const part of [this.arrow.line, this.arrow.cone]) {
-      const material = part.material as LineBasicMaterial | MeshBasicMaterial;
-      material.depthTest = false; // It may begin inside the tool.
-      material.transparent = true; // Drawn behind what is solid.
-    }
+    this.group.add(this.dots, ...this.arrows, this.ghosts);
+    this.makeGhosts();
   }
 
-  show({ contacts, force, target: [x, y, z] }: Picture): void {
+  /// Makes the ghosts anew, as their bodies look now.
+  makeGhosts(): void {
+    dispose(this.ghosts);
+    this.ghosts.add(...this.tools.map(({ view }) => ghostOfTool(view)));
+  }
+
+  show(picture: Picture): void {
     this.dots.geometry.dispose();
     this.dots.geometry = new BufferGeometry().setAttribute(
       "position",
-      new Float32BufferAttribute(contacts.flat(), 3),
+      new Float32BufferAttribute(picture.contacts.flat(), 3),
     );
-    const strength = Math.hypot(...force);
-    this.arrow.visible = strength > 0;
-    if (strength > 0) {
-      this.arrow.position.set(x!, y!, z!);
-      this.arrow.setDirection(new Vector3(...force).divideScalar(strength));
-      this.arrow.setLength(this.size * Math.min(perSize * strength, mostLength));
-    }
+    this.tools.forEach(({ view, centre, size }, k) => {
+      const { target, force } = picture.tools[k]!;
+      setPose(this.ghosts.children[k]!, poseFrom(target));
+      const pose = poseIn(picture, view.body.index);
+      const strength = length(force);
+      const arrow = this.arrows[k]!;
+      arrow.visible = pose !== null && strength > 0;
+      if (arrow.visible) {
+        arrow.position.set(...place(pose!, centre));
+        const along = new Vector3(...force).divideScalar(strength);
+        arrow.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), along));
+        arrow.scale.setScalar(size * Math.min(perSize * strength, mostLength));
+      }
+    });
   }
 }
