@@ -10,16 +10,40 @@
 
 namespace firstcontact::app {
 
+namespace {
+
+/// The finite number that a text holds, and nothing beside it.
+std::optional<double> finite_number(const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = detail::read_double(text.data(), end, value);
+  const bool is_number = error == std::errc() && rest == end && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
                         Range range, const std::string& description) {
   const auto take = [&number, name, range](const std::string& text) {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = detail::read_double(text.data(), end, value);
-    const bool in_range = range == Range::positive ? value > 0.0 : value >= 0.0;
-    if (error != std::errc() || rest != end || !std::isfinite(value) || !in_range) {
+    const std::optional<double> value = finite_number(text);
+    if (!value || !(range == Range::positive ? *value > 0.0 : *value >= 0.0)) {
       throw CLI::ValidationError(name, fmt::format("expected a number {} 0, got \"{}\"",
                                                    range == Range::positive ? ">" : ">=", text));
+    }
+    number = value;
+  };
+  return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
+}
+
+CLI::Option* add_number_between(CLI::App& command, const std::string& name,
+                                std::optional<double>& number, double least, double greatest,
+                                const std::string& description) {
+  const auto take = [&number, name, least, greatest](const std::string& text) {
+    const std::optional<double> value = finite_number(text);
+    if (!value || !(*value >= least && *value <= greatest)) {
+      throw CLI::ValidationError(
+          name, fmt::format("expected a number from {} to {}, got \"{}\"", least, greatest, text));
     }
     number = value;
   };

@@ -17,6 +17,11 @@ enum class Range { positive, not_negative };
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
                         Range range, const std::string& description);
 
+/// Adds an option that takes one number from `least` to `greatest`, read as by add_number().
+CLI::Option* add_number_between(CLI::App& command, const std::string& name,
+                                std::optional<double>& number, double least, double greatest,
+                                const std::string& description);
+
 /// Adds an option that takes a whole number > 0.
 CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
                        const std::string& description);

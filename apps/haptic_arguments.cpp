@@ -46,6 +46,23 @@ std::vector<OutputFile> outputs_of(const HapticArguments& arguments) {
 
 namespace {
 
+/// The first option of the simulated hand that is given; null for none.
+const char* hand_option(const HandArguments& hand) {
+  return hand.stiffness      ? "--hand-stiffness"
+         : hand.mass         ? "--hand-mass"
+         : hand.tremor       ? "--hand-tremor"
+         : hand.encoder_step ? "--encoder-step"
+                             : nullptr;
+}
+
+/// Changes a length and the angle that goes with it.
+void set_length(const std::optional<double>& asked, double& length, double& angle) {
+  if (asked) {
+    angle *= *asked / length;
+    length = *asked;
+  }
+}
+
 std::optional<BrowserDeviceOptions> live_page(const HapticArguments& arguments) {
   if (!arguments.live) {
     return std::nullopt;
@@ -98,6 +115,13 @@ NamedDevices read_devices(const HapticArguments& arguments) {
                            : "--live"));
     }
   }
+  const bool is_simulated = std::ranges::any_of(named.choices, [](const DeviceChoice& choice) {
+    return std::holds_alternative<SimulatedChoice>(choice);
+  });
+  if (const char* option = hand_option(arguments.hand); option != nullptr && !is_simulated) {
+    throw std::invalid_argument(
+        fmt::format("{} is for --device simulated; leave it out, or name this device", option));
+  }
   named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
   return named;
 }
@@ -116,6 +140,11 @@ SimulatedOperatorOptions simulated_hand(const HapticArguments& arguments, const 
   SimulatedOperatorOptions options;
   options.path = random_via_points(path);
   options.seed = path.seed;
+  options.hand.stiffness = arguments.hand.stiffness.value_or(options.hand.stiffness);
+  options.hand.mass = arguments.hand.mass.value_or(options.hand.mass);
+  set_length(arguments.hand.tremor, options.hand.tremor, options.hand.angular_tremor);
+  set_length(arguments.hand.encoder_step, options.channel.resolution,
+             options.channel.angular_resolution);
   options.fingers.grips = grips_of_device(mapping);
   return options;
 }
@@ -148,6 +177,16 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
              "middle of the tool to its farthest point");
   add_number(command, "--speed", arguments.speed, Range::positive,
              "[m/s] Greatest mean speed of a stroke of the simulated hand; 1 by default");
+  add_number_between(command, "--hand-stiffness", arguments.hand.stiffness, 0.0, 1500.0,
+                     "[N/m] Stiffness of the simulated hand, 0 to 1500; 400 by default");
+  add_number_between(command, "--hand-mass", arguments.hand.mass, 0.05, 1.0,
+                     "[kg] Mass of the simulated hand, 0.05 to 1; 0.25 by default");
+  add_number_between(command, "--hand-tremor", arguments.hand.tremor, 0.0, 0.01,
+                     "[m] Tremor of the simulated hand, root mean square, 0 to 0.01; 5e-5 by "
+                     "default. Angles tremble in proportion, by 5e-4 rad");
+  add_number_between(command, "--encoder-step", arguments.hand.encoder_step, 0.0, 0.01,
+                     "[m] Step of the encoders of the simulated device, 0 to 0.01; 1e-5 by "
+                     "default. Angles have steps in proportion, of 5e-5 rad");
   add_count(command, "--seed", arguments.seed, "Seed of the motion of the simulated hand");
   CLI::Option* wall =
       command.add_flag("--wall", arguments.wall,

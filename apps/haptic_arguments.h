@@ -17,6 +17,14 @@
 
 namespace firstcontact::app {
 
+/// The simulated hand and its device, where they differ from the default.
+struct HandArguments {
+  std::optional<double> stiffness;     // [N/m]
+  std::optional<double> mass;          // [kg]
+  std::optional<double> tremor;        // [m]
+  std::optional<double> encoder_step;  // [m]
+};
+
 struct HapticArguments {
   std::string scene;
   std::vector<std::string> devices;
@@ -31,6 +39,7 @@ struct HapticArguments {
   std::optional<double> radius;    // [m]
   std::optional<double> speed;     // [m/s]
   std::size_t seed = 1;
+  HandArguments hand;
   std::optional<std::string> live;  // Port of the live page; "" for a free one.
   bool wall = false;
   bool force = false;

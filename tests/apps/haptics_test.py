@@ -78,6 +78,33 @@ class Haptics(tool_test.ToolTest):
                     self.assertAlmostEqual(value, float(tick[row + axis]), delta=1e-6 * max(1, abs(value)))
         return [step["devices"][0]["force"] for step in steps]
 
+    def handle(self, *options):
+        """The places along z of a handle that a simulated hand leads, in the order of ticks."""
+        result = self.haptics("--device", "simulated", "--duration", "0.2", "--ticks", "ticks.csv", "--force", *options)
+        self.assertEqual(result.returncode, 0, result)
+        with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+            return [float(tick["device_pz"]) for tick in csv.DictReader(file)]
+
+    def test_takes_a_hand_of_another_kind(self):
+        self.file("scene.json", scene())
+        usual = self.handle()
+        for option, value in (("--hand-stiffness", "1500"), ("--hand-mass", "1"), ("--hand-tremor", "0.001")):
+            self.assertNotEqual(self.handle(option, value), usual, option)
+        loose = self.handle("--hand-stiffness", "0")  # Only the damper pulls the handle.
+        self.assertLess(max(map(abs, loose)), 0.8 * max(map(abs, usual)))
+        coarse = self.handle("--encoder-step", "0.001")
+        self.assertTrue(all(abs(z / 0.001 - round(z / 0.001)) < 1e-9 for z in coarse), coarse[:9])
+        self.assertGreater(len(set(coarse)), 2)
+        exact = self.handle("--encoder-step", "0")
+        self.assertFalse(all(abs(z / 1e-5 - round(z / 1e-5)) < 1e-6 for z in exact))
+        for option, value, kept in (("--hand-stiffness", "1501", "from 0 to 1500"), ("--hand-mass", "0.04", "0.05 to 1"),
+                                    ("--hand-tremor", "-1e-9", "0 to 0.01"), ("--encoder-step", "nan", "0 to 0.01")):
+            result = self.haptics("--device", "simulated", option, value, out="other.jsonl")
+            self.assert_refused_with(result, option, kept, value)
+        self.recording((0, 0), (1_000_000, 0))
+        self.assert_refused_with(self.haptics("--device", "hand.csv", "--hand-mass", "1", out="other.jsonl"),
+                                 "--hand-mass is for --device simulated")
+
     def test_is_the_same_on_every_run(self):
         self.file("scene.json", scene())
         for name in ("a", "b"):
