@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -11,22 +10,16 @@
 #include <utility>
 
 #include <firstcontact/haptic_devices/detail/driver_report.h>
+#include <firstcontact/haptic_devices/detail/mouse_protocol.h>
 #include <firstcontact/haptic_devices/detail/quiet_state.h>
 #include <firstcontact/haptic_devices/detail/socket.h>
 #include <firstcontact/haptic_devices/detail/websocket.h>
 #include <firstcontact/haptic_devices/mail_slot.h>
-#include <firstcontact/text/json_reader.h>
-#include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_error.h>
-#include <firstcontact/text/parse_json.h>
-#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::JsonArray;
-using detail::JsonReader;
-using detail::JsonValue;
 using detail::WebSocketKind;
 
 constexpr std::int64_t kRoundNs = 4'000'000;     // [ns]  Pause between rounds over the connections.
@@ -36,53 +29,11 @@ constexpr std::int64_t kStillNs = 2'000'000'000;
 constexpr std::size_t kMostMessage = 4096;  // [byte]  Greatest length of a pose.
 constexpr std::size_t kMostConnections = 16;
 
-const std::string& page_name() {
-  static const std::string name = "page of the mouse";
-  return name;
-}
-
 std::string http_answer(const char* status, std::string_view text) {
   return std::string("HTTP/1.1 ") + status +
          "\r\nContent-Type: text/html; charset=utf-8\r\nCache-Control: no-store\r\n"
          "X-Frame-Options: DENY\r\nConnection: close\r\nContent-Length: " +
          std::to_string(text.size()) + "\r\n\r\n" + std::string(text);
-}
-
-template <std::size_t n>
-std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& value, double most) {
-  const JsonArray& given = reader.array(value, "a list of numbers");
-  if (given.size() != n) {
-    reader.fail_expected(std::to_string(n) + " numbers", value);
-  }
-  std::array<double, n> numbers{};
-  for (std::size_t k = 0; k < n; ++k) {
-    numbers[k] = reader.number(given[k]);
-    if (!(std::abs(numbers[k]) <= most)) {
-      reader.fail_expected("a number of at most " + detail::write_json(most), given[k]);
-    }
-  }
-  return numbers;
-}
-
-/// Reads the pose of the handle and the value of the grips from a page's message.
-void take_handle(std::string_view text, DeviceState& state) {
-  const JsonValue root = detail::parse_json(text, page_name());
-  const JsonReader reader(root, page_name());
-  const auto p = numbers_of<3>(reader, reader.member(root, "position"), detail::kMostOfSample);
-  const auto q = numbers_of<4>(reader, reader.member(root, "rotation"), 2.0);
-  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-  if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
-    reader.fail_expected("a quaternion of length 1", reader.member(root, "rotation"));
-  }
-  double grip = 0.0;
-  if (const JsonValue* value = detail::find(std::get<detail::JsonObject>(root.value), "grip")) {
-    grip = reader.number(*value);
-    if (!(std::abs(grip) <= detail::kMostOfSample)) {
-      reader.fail_expected("a number of at most 1e6", *value);
-    }
-  }
-  state.X_DH = {Eigen::Vector3d(p[0], p[1], p[2]), rotation.normalized()};
-  state.grips.fill(grip);
 }
 
 }  // namespace
@@ -162,7 +113,7 @@ struct BrowserDevice::Data {
   // first.
   void take(const std::string& text) {
     try {
-      take_handle(text, state);
+      detail::take_mouse_message(text, state);
       state.status = DeviceStatus::live;
       state.time_ns = steady_now_ns();
       ++state.sequence;
