@@ -39,6 +39,50 @@ def test_pushes_back_where_a_tool_touches():
     assert (session.contact_gaps >= 1e-5 * (1 - 1e-6)).all()
 
 
+def test_takes_and_gives_arrays():
+    by_poses, by_arrays = fc.HapticSession(SCENE), fc.HapticSession(SCENE)
+    for k in range(1200):
+        height, turn = -1e-5 * k, 1e-4 * k
+        tick = by_poses.step([fc.Pose((0, 0, height), rotation_vector=(0, 0, turn))], [0])
+        row = np.array([[0, 0, height, np.cos(turn / 2), 0, 0, np.sin(turn / 2)]])
+        same = by_arrays.step(row, np.zeros(1, dtype=np.uint32), np.zeros((1, 0)))
+        assert np.allclose(same.forces, tick.forces, atol=1e-9)
+    assert same.forces[0, 2] > 1.9
+    assert same.target_array.shape == (1, 7) and by_arrays.pose_array.shape == (1, 7)
+    target, pose = same.targets[0], by_arrays.poses[0]
+    assert np.array_equal(same.target_array[0], [*target.position, *target.quaternion_wxyz])
+    assert np.array_equal(by_arrays.pose_array[0], [*pose.position, *pose.quaternion_wxyz])
+    assert same.target_array[0, 2] == pytest.approx(0.03 - 0.01199)
+    assert same.target_array[0, 6] == pytest.approx(np.sin(0.05995))
+    assert by_arrays.step(np.full((1, 7), np.nan)).faults == ["device"]
+    assert by_arrays.step([[0, 0, 0, 1, 0, 0, 0]]).target_array.shape == (1, 7)  # Rows of a list.
+
+
+def test_gives_the_devices_of_its_record():
+    session = fc.HapticSession(SCENE)
+    tick = press(session, 0.012, ticks=2001)  # The last one begins a cycle.
+    devices = session.cycle.devices
+    assert devices.bodies.tolist() == [1]
+    assert np.array_equal(devices.positions, tick.target_array[:, :3])
+    assert np.array_equal(devices.quaternions_wxyz, tick.target_array[:, 3:])
+    assert np.array_equal(devices.forces, tick.forces_world) and devices.forces[0, 2] > 1
+    assert devices.torques.shape == (1, 3)
+
+
+def test_names_the_pose_that_is_wrong():
+    session = fc.HapticSession(SCENE)
+    with pytest.raises(ValueError, match=r"poses: .*\(n, 7\).*got 6 columns"):
+        session.step(np.zeros((1, 6)))
+    with pytest.raises(ValueError, match="poses: row 0: "):
+        session.step(np.zeros((1, 7)))  # No rotation.
+    with pytest.raises(ValueError, match="poses: row 0: "):
+        session.step(np.array([[np.nan, 0, 0, 1, 0, 0, 0]]))
+    with pytest.raises(ValueError, match="each tool"):
+        session.step(np.zeros((0, 7)))
+    with pytest.raises(TypeError, match="poses"):
+        session.step(["up"])
+
+
 def test_feels_nothing_by_a_lost_device_or_a_clutch():
     session = fc.HapticSession(SCENE)
     assert press(session, 0.012).forces[0, 2] > 1

@@ -41,7 +41,7 @@ from ._simulate import simulate
 from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, HeldPair, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PathVerification, PlanAnswer, PlanningRequest,
                       ProofMoment, RateUse, ResultVerification, RetimeAnswer, RetimedMoment, RobotGroup,
-                      RobotSemantics, RunContacts, RunImpacts, RunMoment, RunTies, RunVerification)
+                      RobotSemantics, RunContacts, RunDevices, RunImpacts, RunMoment, RunTies, RunVerification)
 from ._verify import verify_path, verify_result
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
                      JointType, ProofVerdict, StartContacts, Turning, UndecidedReason, Verdict)
@@ -55,7 +55,7 @@ __all__ = [
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PathVerification", "PlanAnswer", "PlanningRequest", "PointReading", "Pose", "ProofMoment", "ProofVerdict", "RateUse",
     "Result", "ResultVerification", "RetimeAnswer", "RetimedMoment", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
-    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerification", "Scene",
+    "RunDevices", "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",

@@ -231,6 +231,21 @@ class RunTies(NamedTuple):
     """[N m]  m×3, likewise; those of springs, cables and pins are 0."""
 
 
+class RunDevices(NamedTuple):
+    """The devices of the m tools of a haptic run as a step begins, one a row; no rows in simulations."""
+
+    bodies: npt.NDArray[np.int64]
+    """(m,), numbers of the tools."""
+    positions: npt.NDArray[np.float64]
+    """[m]  m×3, of the frame of each tool where its device leads it."""
+    quaternions_wxyz: npt.NDArray[np.float64]
+    """[-]  m×4, of that frame."""
+    forces: npt.NDArray[np.float64]
+    """[N]  m×3, on each device at the centre of its tool there."""
+    torques: npt.NDArray[np.float64]
+    """[N m]  m×3, on each device about that centre."""
+
+
 class EdgeAnswers(NamedTuple):
     """The answers about edges, in their order."""
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,6 +17,7 @@
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/motion/motion.h>
 #include <firstcontact/record/write_run.h>
 
 #include "arrays.h"
@@ -28,6 +30,58 @@ namespace firstcontact::python {
 namespace py = pybind11;
 
 namespace {
+
+/// Poses as n×7 numbers: position, then quaternion w, x, y, z.
+py::array rows_of_poses(const std::vector<Pose>& poses) {
+  py::array_t<double> array({static_cast<py::ssize_t>(poses.size()), py::ssize_t{7}});
+  auto row = array.mutable_unchecked<2>();
+  for (py::ssize_t k = 0; k < row.shape(0); ++k) {
+    const auto& [p, q] = poses[static_cast<std::size_t>(k)];
+    const std::array numbers{p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+    for (py::ssize_t i = 0; i < 7; ++i) {
+      row(k, i) = numbers[static_cast<std::size_t>(i)];
+    }
+  }
+  return array;
+}
+
+/// The pose of a row of seven numbers; none where all are NaN.
+std::optional<Pose> pose_of_row(const double* row, py::ssize_t number) {
+  if (std::all_of(row, row + 7, [](double x) { return std::isnan(x); })) {
+    return std::nullopt;
+  }
+  const Pose pose{{row[0], row[1], row[2]}, Eigen::Quaterniond(row[3], row[4], row[5], row[6])};
+  try {
+    (void)Motion::fixed(pose);  // Refuses what a Pose refuses.
+  } catch (const std::invalid_argument& error) {
+    throw py::value_error("poses: row " + std::to_string(number) + ": " + error.what());
+  }
+  return pose;
+}
+
+/// The poses of handles: a sequence of Pose and None, or n×7 numbers.
+std::vector<std::optional<Pose>> poses_from(const py::object& value) {
+  using Poses = std::vector<std::optional<Pose>>;
+  if (!py::isinstance<py::array>(value)) {
+    try {
+      return value.cast<Poses>();
+    } catch (const py::cast_error&) {
+      // Rows of numbers, or the complaint below.
+    }
+  }
+  const py::array_t<double> array = matrix_from(value, "poses");
+  if (array.shape(1) != 7) {
+    throw py::value_error(
+        "poses: expected an array of shape (n, 7), position and quaternion w, x, y, z per row; "
+        "got " +
+        std::to_string(array.shape(1)) + " columns");
+  }
+  Poses poses;
+  for (py::ssize_t k = 0; k < array.shape(0); ++k) {
+    poses.push_back(pose_of_row(array.data(k, 0), k));
+  }
+  return poses;
+}
 
 /// A tick with the state at its time.
 struct FeltTick {
@@ -91,9 +145,9 @@ class FeltSession {
         session_(setup_.scene, setup_.options),
         run_(loaded, setup_, session_.contacts().contact_distance()) {}
 
-  FeltTick step(const std::vector<std::optional<Pose>>& poses,
-                const std::vector<std::uint32_t>& buttons,
+  FeltTick step(const py::object& handles, const std::vector<std::uint32_t>& buttons,
                 const std::vector<std::vector<double>>& grips) {
+    const std::vector<std::optional<Pose>> poses = poses_from(handles);
     if (!buttons.empty() && buttons.size() != poses.size()) {
       throw std::invalid_argument("step: expected as many buttons as poses, or none");
     }
@@ -237,6 +291,9 @@ void bind_tick(py::module_& m) {
       .def_property_readonly("targets", &FeltTick::targets,
                              "Poses of the tools that follow from the devices' poses.")
       .def_property_readonly(
+          "target_array", [](const FeltTick& t) { return rows_of_poses(t.targets()); },
+          "[m, -] n×7, the targets: position and quaternion w, x, y, z of each.")
+      .def_property_readonly(
           "faults", &FeltTick::faults,
           "State of each tool as words joined by a bar; empty where all is well.")
       .def_property_readonly(
@@ -271,7 +328,8 @@ latency: [s] duration of a cycle of the contact loop.)")
            py::arg("grips") = std::vector<std::vector<double>>{},
            R"(Makes the next tick of the force loop; returns a HapticTick.
 
-poses: of the handles, a Pose for each tool; None for a lost device. buttons: bits, one number for
+poses: of the handles, a Pose for each tool; None for a lost device. Or n×7 numbers: [m] position
+and [-] quaternion w, x, y, z per row; a row of NaN for a lost device. buttons: bits, one number for
 each tool. grips: for each tool the values of its grips, 0 open, 1 closed; all 0 without them.)")
       .def_property_readonly(
           "time",
@@ -284,6 +342,9 @@ each tool. grips: for each tool the values of its grips, 0 open, 1 closed; all 0
           },
           "[s] Time from tick to tick.")
       .def_property_readonly("poses", &FeltSession::poses, "Present poses of the tools.")
+      .def_property_readonly(
+          "pose_array", [](const FeltSession& s) { return rows_of_poses(s.poses()); },
+          "[m, -] n×7, the present poses: position and quaternion w, x, y, z of each.")
       .def_property_readonly("joints", &FeltSession::joints,
                              "[rad or m] (n,), present positions of the joints of all tools.")
       .def_property_readonly("joint_names", &FeltSession::joint_names,

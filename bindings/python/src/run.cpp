@@ -94,14 +94,18 @@ py::array positions(const RunStep& step) {
   return owning(std::move(found));
 }
 
-py::array quaternions(const RunStep& step) {
+/// The quaternions of poses, one a row.
+template <class Posed>
+py::array quaternion_rows(const std::vector<Posed>& posed) {
   std::vector<double> wxyz;
-  for (const RunBody& body : step.bodies) {
-    const Eigen::Quaterniond& q = body.X_WB.rotation;
+  for (const Posed& one : posed) {
+    const Eigen::Quaterniond& q = one.X_WB.rotation;
     wxyz.insert(wxyz.end(), {q.w(), q.x(), q.y(), q.z()});
   }
   return table(wxyz, 4);
 }
+
+py::array quaternions(const RunStep& step) { return quaternion_rows(step.bodies); }
 
 py::array pieces(const RunStep& step, std::size_t number) {
   std::vector<double> row_by_row;
@@ -146,6 +150,20 @@ py::object impacts(const RunStep& step) {
 py::object ties(const RunStep& step) {
   return py::module_::import("firstcontact._tuples")
       .attr("RunTies")(rows(step.ties, &RunTie::force), rows(step.ties, &RunTie::torque));
+}
+
+py::object devices(const RunStep& step) {
+  std::vector<std::int64_t> bodies;
+  std::vector<Vector3d> positions;
+  for (const RunDevice& device : step.devices) {
+    bodies.push_back(static_cast<std::int64_t>(device.body));
+    positions.push_back(device.X_WB.position);
+  }
+  return py::module_::import("firstcontact._tuples")
+      .attr("RunDevices")(
+          py::array_t<std::int64_t>(static_cast<py::ssize_t>(bodies.size()), bodies.data()),
+          owning(std::move(positions)), quaternion_rows(step.devices),
+          rows(step.devices, &RunDevice::force), rows(step.devices, &RunDevice::torque));
 }
 
 py::object contacts(const RunStep& step) {
@@ -237,6 +255,8 @@ of bodies.)")
       .def_property_readonly("contacts", &contacts,
                              "Contacts that acted at the end, as RunContacts.")
       .def_property_readonly("ties", &ties, "The forces of springs, cables and joints, as RunTies.")
+      .def_property_readonly("devices", &devices,
+                             "Devices of haptic tools as the step begins, as RunDevices.")
       .def_property_readonly("impacts", &impacts,
                              "Effects of impacts within the step, as RunImpacts.")
       .def("pieces", &pieces, py::arg("body"),
