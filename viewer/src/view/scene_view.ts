@@ -12,10 +12,12 @@ import {
   Vector2,
   Vector3,
   WebGLRenderer,
+  type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { MeshData } from "../data/page_data";
 import type { Contact, Vector3 as Triple } from "../data/result";
+import type { Signal } from "../core/signal";
 import type { Display } from "../display";
 import type { Body, Model, BodyGeometry } from "../model";
 import { unplace } from "../motion/motion";
@@ -51,6 +53,10 @@ import { TieMarkers } from "./tie_view";
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
 const nearContact = 0.04; // In t: contacts of a result are seen within it.
 const blink = 0.2; // [s] Of the person who looks: no less long are contacts seen.
+
+function setVisible(shown: boolean, ...parts: readonly (Object3D | undefined)[]): void {
+  parts.forEach((part) => part && (part.visible = shown));
+}
 
 export class SceneView {
   readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
@@ -377,29 +383,17 @@ export class SceneView {
         .forEach((surface) => (surface.visible = shown));
       this.requestFrame();
     });
-    display.forces.subscribe((shown) => {
-      if (this.forces) {
-        this.forces.arrows.visible = shown;
-      }
-      if (this.devices) {
-        this.devices.arrows.visible = shown;
-      }
-      this.requestFrame();
+    const on = (signal: Signal<boolean>, show: (shown: boolean) => void): void =>
+      signal.subscribe((shown) => {
+        show(shown);
+        this.requestFrame();
+      });
+    on(display.forces, (shown) => {
+      setVisible(shown, this.forces?.arrows, this.devices?.arrows);
     });
-    display.devices.subscribe((shown) => {
-      if (this.devices) {
-        this.devices.ghosts.visible = shown;
-      }
-      this.requestFrame();
-    });
-    display.path.subscribe((shown) => {
-      this.path?.showPath(shown);
-      this.requestFrame();
-    });
-    display.trees.subscribe((shown) => {
-      this.path?.showTrees(shown);
-      this.requestFrame();
-    });
+    on(display.devices, (shown) => setVisible(shown, this.devices?.ghosts));
+    on(display.path, (shown) => this.path?.showPath(shown));
+    on(display.trees, (shown) => this.path?.showTrees(shown));
     display.hidden.subscribe((hidden) => {
       this.bodies.forEach(({ group, body }) => (group.visible = !hidden.has(body.index)));
       this.devices?.show(player.t.value);
