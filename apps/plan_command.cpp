@@ -125,7 +125,9 @@ class Plan {
       question.time = arguments_.time;
     }
     ShapeCache cache;
-    return make_scene_plan(std::move(scene), question, cache, interrupt_.token());
+    ScenePlan made = make_scene_plan(std::move(scene), question, cache, interrupt_.token());
+    require_goals_apart(made);
+    return made;
   }
 
   Scene read(const ReadingOptions& reading) const {

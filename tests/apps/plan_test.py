@@ -187,10 +187,16 @@ class Plan(tool_test.ToolTest):
         self.assertEqual((path["verdict"], path["goal"]), ("approximate", None))
         self.assertGreater(path["distance_to_goal"], 0)
 
-    def test_is_one_place_where_the_start_is_the_goal(self):
-        self.file("scene.json", scene({"body": "peg", "goal": PEG["pose"]}))
-        path = json.loads(self.plan("scene.json", "--json").stdout)
-        self.assertEqual((path["verdict"], len(path["waypoints"]), path["edges"]), ("proven", 1, []))
+    def test_refuses_a_start_that_is_the_goal(self):
+        for key, goal, named in (("goal", PEG["pose"], "plan.goal:"), ("goals", [GOAL, PEG["pose"]], "plan.goals[1]:")):
+            self.file("scene.json", scene({"body": "peg", key: goal}))
+            self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), named, "the start itself")
+        # Where a door moves, the peg may have to leave its place and come back.
+        door = {"name": "door", "shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "motion": {
+            "type": "waypoints", "times": [0, 4], "poses": [{"position": [-0.5, y, 0]} for y in (3, -3)]}}
+        question = {"body": "peg", "goal": PEG["pose"], "speeds": {"linear": 2, "angular": 2}, "box": [[-2, -2, -2], [2, 2, 2]]}
+        self.file("scene.json", scene(question, (door, PEG)))
+        self.assertEqual(self.plan("scene.json", "-o", "path.json").returncode, 0)
 
     def test_names_what_is_wrong(self):
         self.file("gantry.urdf", URDF)

@@ -361,6 +361,16 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
   return made;
 }
 
+void require_goals_apart(const ScenePlan& scene) {
+  const auto found = std::ranges::find(scene.goals, scene.start);
+  if (!scene.plan.times && found != scene.goals.end()) {
+    const std::string which = scene.goals.size() == 1
+                                  ? "goal"
+                                  : "goals[" + std::to_string(found - scene.goals.begin()) + "]";
+    refuse_plan("plan." + which + ": expected a goal apart from the start, got the start itself");
+  }
+}
+
 PlanQuestion question_of_trajectory(const Scene& scene) {
   if (scene.robots.size() != 1) {
     refuse_plan("expected a scene with one robot, got " + std::to_string(scene.robots.size()));

@@ -47,6 +47,12 @@ struct ScenePlan {
                                                          ShapeCache& cache,
                                                          const std::stop_token& stop = {});
 
+/// Refuses a start that is a goal, as there is nothing to plan. Where something else moves, a mover
+/// may have to leave its place and come back.
+///
+/// @throws std::invalid_argument  names the goal
+FIRSTCONTACT_API void require_goals_apart(const ScenePlan& scene);
+
 /// The question from the first to the last point of the trajectory of a scene's only robot.
 ///
 /// @throws std::invalid_argument if there is no such robot, or its trajectory has no two points
