@@ -89,12 +89,23 @@ void ContactLoop::Implementation::begin_members() {
   finder_ = detail::ContactFinder(distance_);
 }
 
+/// [m]  The least reach of a tool or one of its links.
+double ContactLoop::Implementation::least_reach() const {
+  double least = detail::kInfinite;
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    least = is_body(m) ? least : std::min(least, members_[m].reach);
+  }
+  return least;
+}
+
 void ContactLoop::Implementation::begin_pairs() {
   courses_.resize(members_.size());
   ways_.resize(members_.size());
+  const detail::NeighbourSlack slack{.beside = detail::kSlackOfNeighbours * distance_,
+                                     .far = detail::kSlackOfFarNeighbours * distance_,
+                                     .far_from = detail::kFarNeighbour * least_reach()};
   for (detail::HapticMember& member : members_) {
-    member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(
-        member.shape, detail::kSlackOfNeighbours * distance_);
+    member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(member.shape, slack);
   }
   const auto add = [&](std::size_t other, std::size_t tool) {
     const auto is_this = [&](const std::array<std::size_t, 2>& pair) {

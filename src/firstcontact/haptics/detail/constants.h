@@ -72,7 +72,7 @@ inline constexpr std::size_t kProofSteps = 20'000;
 inline constexpr double kLeastGain = 0.01;
 /// [-]  Residual of the solver.
 inline constexpr double kSolvedTo = 1e-3;
-/// [-]  The most by which a neighbour of a near feature may reach farther than the feature.
+/// [-]  The most by which a neighbour beside a near feature may reach farther than the feature.
 inline constexpr double kSlackOfNeighbours = 0.25;
 
 // Many contacts.
@@ -88,6 +88,11 @@ inline constexpr double kOneNormal = 1.0 - 1e-5;
 /// [contacts]  The most contacts of a projection; of more a reduced set is taken.
 inline constexpr std::size_t kMostProjected = 64;
 
+/// [-]  The most by which a neighbour far from it may do so...
+inline constexpr double kSlackOfFarNeighbours = 2.0;
+/// [-]  ...that is, at least this fraction of a tool's reach away. A turn moves the load from one
+/// end of a long edge to the other within a cycle, so both ends count.
+inline constexpr double kFarNeighbour = 0.25;
 /// [-]  Bound of the difference between proven and recorded pieces, by their sizes: pieces are
 /// rounded.
 inline constexpr double kRoundingOfPieces = 0x1p-46;

@@ -77,6 +77,7 @@ class ContactLoop::Implementation {
   void begin_links();
   void begin_pairs();
   void measure_joints();
+  [[nodiscard]] double least_reach() const;
   void require_start();
   [[nodiscard]] std::string name_of(std::size_t member) const;
   void find_contacts();

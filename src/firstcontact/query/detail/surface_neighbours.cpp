@@ -17,14 +17,16 @@ constexpr double kTilt = 1e-6;
 
 /// Sorts pairs of (feature, vector) into rows.
 template <class Rows>
-Rows in_rows(std::size_t count, double slack,
+Rows in_rows(std::size_t count, const NeighbourSlack& slack,
              std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
   std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
   Rows rows;
   rows.first.assign(count + 1, 0);
   for (const auto& [feature, vector] : pairs) {
     ++rows.first[feature + 1];
-    rows.offsets.push_back({vector, std::max(slack, kTilt * vector.norm())});
+    const double length = vector.norm();
+    rows.offsets.push_back(
+        {vector, std::max(length < slack.far_from ? slack.beside : slack.far, kTilt * length)});
   }
   for (std::size_t k = 0; k < count; ++k) {
     rows.first[k + 1] += rows.first[k];
@@ -45,7 +47,7 @@ bool are_flat(std::span<const Offset> offsets) {
 
 }  // namespace
 
-SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) {
+SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, const NeighbourSlack& slack) {
   const Mesh& mesh = shape.mesh();
   std::vector<std::pair<std::uint32_t, Vector3d>> across_faces;
   std::vector<std::pair<std::uint32_t, Vector3d>> along_edges;

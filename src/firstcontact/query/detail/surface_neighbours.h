@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,13 @@
 
 namespace firstcontact::detail {
 
+/// The distance by which a neighbour of a feature may reach farther than the feature.
+struct NeighbourSlack {
+  double beside = 0.0;  ///< [m]  >= 0  Of neighbours that are nearer than `far_from`.
+  double far = 0.0;     ///< [m]  >= 0  Of the others.
+  double far_from = std::numeric_limits<double>::infinity();  ///< [m]
+};
+
 /// Separates contacts at which a surface bulges towards the other body from those with a nearer
 /// neighbour.
 /// A neighbour is a feature next to that of the contact. A corner that slides over a flat edge
@@ -23,7 +31,9 @@ class SurfaceNeighbours {
  public:
   /// @param slack  [m]  >= 0  Distance by which a neighbour may reach farther. So all corners of a
   ///               face that lies on another one touch, however it is tilted.
-  SurfaceNeighbours(const Shape& shape, double slack);
+  SurfaceNeighbours(const Shape& shape, double slack)
+      : SurfaceNeighbours(shape, NeighbourSlack{.beside = slack, .far = slack}) {}
+  SurfaceNeighbours(const Shape& shape, const NeighbourSlack& slack);
 
   /// Whether no neighbour of the feature reaches farther along the direction than the feature does.
   ///
