@@ -198,7 +198,7 @@ TEST(BoxFront, ProvesMotionsOfAnyLength) {
       FirstContactResult result;
       const MovingShape moving_A{A, motion_A};
       const MovingShape moving_B{B, motion_B};
-      first_contact_by_front(front, moving_A, moving_B, workspace, options, result);
+      first_contact_by_front(front, moving_A, moving_B, {}, workspace, options, result);
       const FirstContactResult expected = first_contact(moving_A, moving_B, workspace, options);
       ASSERT_NE(result.verdict, Verdict::undecided);
       if (result.verdict != expected.verdict) {  // Only where they graze.
@@ -249,7 +249,7 @@ TEST(BoxFront, ProvesWhereSurroundingsTurnOnHingesAndScrews) {
                                                             random.vector(0.0, size));
     Workspace workspace;
     FirstContactResult result;
-    first_contact_by_front(front, {A, motion_A}, {B, motion_B}, workspace, options, result);
+    first_contact_by_front(front, {A, motion_A}, {B, motion_B}, {}, workspace, options, result);
     ASSERT_NE(result.verdict, Verdict::undecided);
     expect_true(result, {A, motion_A}, {B, motion_B}, options, 1e-12);
     (result.verdict == Verdict::free ? free : met) += 1;

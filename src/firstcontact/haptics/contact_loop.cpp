@@ -15,6 +15,7 @@
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/haptics/detail/contact_loop_implementation.h>
 #include <firstcontact/haptics/detail/haptic_scene_check.h>
+#include <firstcontact/haptics/detail/hull_proof.h>
 #include <firstcontact/math/number_text.h>
 #include <firstcontact/query/distance.h>
 
@@ -106,6 +107,7 @@ void ContactLoop::Implementation::begin_pairs() {
                                      .far_from = detail::kFarNeighbour * least_reach()};
   for (detail::HapticMember& member : members_) {
     member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(member.shape, slack);
+    member.is_convex = detail::is_convex(member.shape, detail::kSlackOfConvex * distance_);
   }
   const auto add = [&](std::size_t other, std::size_t tool) {
     const auto is_this = [&](const std::array<std::size_t, 2>& pair) {

@@ -39,6 +39,7 @@ std::uint64_t checksum_of(const HapticContactSet& set) noexcept {
   mixer.add((std::uint64_t{set.tools} << 32) | set.count);
   mixer.add(std::uint64_t{set.full_count});
   mixer.add(set.angle);
+  mixer.add(std::uint64_t{set.is_unproven});
   for (std::size_t k = 0; k < kMostTools; ++k) {
     mixer.add(set.X_WB[k].position);
     const Eigen::Quaterniond& q = set.X_WB[k].rotation;

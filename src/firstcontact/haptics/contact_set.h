@@ -66,6 +66,7 @@ struct HapticContactSet {
   /// [rad]  Angle by which a motion that the listed contacts permit may violate any other contact,
   /// at most. 0 where all are listed.
   double angle = 0.0;
+  bool is_unproven = false;                ///< As HapticCycle::is_unproven.
   std::array<Pose, kMostTools> X_WB = {};  ///< Poses of the god-objects.
   /// [m]  Centres of the god-objects.
   std::array<Eigen::Vector3d, kMostTools> p_WC = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};

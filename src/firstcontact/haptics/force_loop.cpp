@@ -206,6 +206,9 @@ class ForceLoop::Implementation {
       }
       set_share(tools_[k], seconds, tick_.tools[k].faults);
       give_force(k, projected.force, seconds);
+      if (set.is_unproven) {
+        tick_.tools[k].faults |= bit(ForceFault::unproven);
+      }
       give_efforts(k, projected.force, seconds);
       tick_.tools[k].asked = tick_.tools[k].command;
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,19 +76,22 @@ struct ForceLoopOptions {
 
 /// A reason why a force is not that of the spring. Bits of ToolTick::faults.
 enum class ForceFault : std::uint32_t {
-  device = 1,      ///< The device is waiting, silent, lost or ended: the force is 0 at once.
-  not_finite = 2,  ///< A number of the device is not finite: the force is 0 at once.
+  device = 1,  ///< The device is waiting, silent, lost or ended: the force is 0 at once.
+  /// A number of the device is not finite, or beyond 1e6 [m, m/s, rad/s]: the force is 0 at once.
+  not_finite = 2,
   disengaged = 4,  ///< The clutch or the dead man's button disengages the tool.
   ramping = 8,     ///< Less than the ramp has passed since the last engagement.
   stale = 16,      ///< The contact set is older than fresh.
   limited = 32,    ///< The force or the torque was cut to its limit.
   slewed = 64,     ///< The change of the force or the torque was cut to its limit.
   unsolved = 128,  ///< The projection ended before its tolerance.
+  unproven = 256,  ///< The tool stays, as no part of its motion could be proven.
 };
 
 /// The words of `ForceFault` in files, in its order.
-inline constexpr std::array<const char*, 8> kForceFaultWords{
-    "device", "not_finite", "disengaged", "ramping", "stale", "limited", "slewed", "unsolved"};
+inline constexpr std::array<const char*, 9> kForceFaultWords{"device",  "not_finite", "disengaged",
+                                                             "ramping", "stale",      "limited",
+                                                             "slewed",  "unsolved",   "unproven"};
 
 /// A tick of one tool.
 struct ToolTick {

@@ -421,13 +421,13 @@ bool detail::may_have_front(const Shape& A, const Shape& B) {
 }
 
 void detail::first_contact_by_front(const BoxFront& front, const MovingShape& A,
-                                    const MovingShape& B, Workspace& workspace,
-                                    const FirstContactOptions& options,
+                                    const MovingShape& B, const TimeWindow& window,
+                                    Workspace& workspace, const FirstContactOptions& options,
                                     FirstContactResult& result) {
   const FloatEnvironmentGuard guard;
   ConstantRatePair motion = motion_of(A, B, options.tolerance);
   const CornerLines lines(A, B);
-  answer({A.shape, B.shape, motion}, {}, &lines, nullptr, workspace, options, result, &front);
+  answer({A.shape, B.shape, motion}, window, &lines, nullptr, workspace, options, result, &front);
 }
 
 void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,

@@ -66,14 +66,33 @@ inline constexpr double kShareOfWildCourse = 1e-4;
 /// [-]  The least rest of a round, after the courses are over, that counts as time of its own.
 inline constexpr double kLeastRestOfRound = 1e-6;
 /// [node groups and steps]  The work of a proof of one pair in one round. Where it is spent, the
-/// pair is proven up to there.
+/// pair is proven up to there...
 inline constexpr std::size_t kProofSteps = 20'000;
+/// [node groups and steps]  ...but where it proves nothing, it is doubled up to this work...
+inline constexpr std::size_t kMostProofSteps = 640'000;
+/// [-]  ...for a part of the plan that is shorter by this factor...
+inline constexpr double kShorterPart = 1.0 / 16.0;
+/// [-]  ...down to this part.
+inline constexpr double kShortestPart = 0x1p-16;
+/// [-]  The most by which the time of a cycle is exceeded after cycles in which nothing could be
+/// proven in time.
+inline constexpr double kMostOvertime = 64.0;
+/// [steps]  The work of a proof by the hulls of two convex members, before their triangles are
+/// searched.
+inline constexpr std::size_t kHullSteps = 1000;
+/// [-]  The most by which a vertex of a convex member may lie outside of a triangle's plane.
+inline constexpr double kSlackOfConvex = 0.01;
 /// [-]  The least gain of a motion that is made, so that sticking tools do not creep.
 inline constexpr double kLeastGain = 0.01;
 /// [-]  Residual of the solver.
 inline constexpr double kSolvedTo = 1e-3;
 /// [-]  The most by which a neighbour beside a near feature may reach farther than the feature.
 inline constexpr double kSlackOfNeighbours = 0.25;
+/// [-]  The most by which a neighbour far from it may do so...
+inline constexpr double kSlackOfFarNeighbours = 2.0;
+/// [-]  ...that is, at least this fraction of a tool's reach away. A turn moves the load from one
+/// end of a long edge to the other within a cycle, so both ends count.
+inline constexpr double kFarNeighbour = 0.25;
 
 // Many contacts.
 
@@ -88,11 +107,6 @@ inline constexpr double kOneNormal = 1.0 - 1e-5;
 /// [contacts]  The most contacts of a projection; of more a reduced set is taken.
 inline constexpr std::size_t kMostProjected = 64;
 
-/// [-]  The most by which a neighbour far from it may do so...
-inline constexpr double kSlackOfFarNeighbours = 2.0;
-/// [-]  ...that is, at least this fraction of a tool's reach away. A turn moves the load from one
-/// end of a long edge to the other within a cycle, so both ends count.
-inline constexpr double kFarNeighbour = 0.25;
 /// [-]  Bound of the difference between proven and recorded pieces, by their sizes: pieces are
 /// rounded.
 inline constexpr double kRoundingOfPieces = 0x1p-46;

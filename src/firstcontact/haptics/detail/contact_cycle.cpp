@@ -1,8 +1,10 @@
 // A cycle of the contact loop: plans, proofs, pieces.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -117,6 +119,7 @@ double ContactLoop::Implementation::execute_piece(const detail::ToolDisplacement
   const detail::ProvenPart proven =
       detail::prove_plan(members_, motions_, pairs_, distance_, deadline, workspace_, scratch_);
   cycle_.is_late = cycle_.is_late || proven.is_late;
+  cycle_.is_unproven = cycle_.is_unproven || proven.is_unproven;
   const double to = proven.t == 1.0 && slot == dt - now_ ? dt : now_ + proven.t * slot;
   if (!(to > now_)) {
     return 0.0;
@@ -137,6 +140,7 @@ double ContactLoop::Implementation::execute_piece(const detail::ToolDisplacement
   rest_clearance_ = proven.clearance;
   cycle_.clearance = std::min(cycle_.clearance, proven.clearance);
   now_ = to;
+  has_moved_ = true;
   is_found_ = false;
   set_frames();
   return proven.t;
@@ -154,6 +158,8 @@ void ContactLoop::Implementation::begin_cycle(double dt) {
   cycle_.rounds = 0;
   cycle_.is_converged = false;
   cycle_.is_late = false;
+  cycle_.is_unproven = false;
+  has_moved_ = false;
   cycle_.residual = 0.0;
   cycle_.members.clear();
   last_on_courses_.clear();
@@ -248,6 +254,9 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
       set_surface(touch.contact, dt);
     }
   }
+  cycle_.is_unproven = cycle_.is_unproven && !has_moved_;
+  overtime_ = cycle_.is_unproven ? std::min(2.0 * overtime_ + 1.0, detail::kMostOvertime)
+                                 : (cycle_.is_late ? overtime_ : 0.5 * overtime_);
   cycle_.lasted = wait_from_.value_or(dt);
   time_ += cycle_.lasted;
   for (HapticMemberMotion& motion : cycle_.members) {
@@ -309,9 +318,19 @@ bool ContactLoop::Implementation::goes_on_after(const detail::GodObjectPlan& pla
   return !is_there && made * gain_of(plan.displacements) > 1e-3 * least_gain();
 }
 
+/// The time at which proofs end: the deadline, or later after cycles in which nothing could be
+/// proven by then. A cycle that is too long is better than a tool that stays for ever.
+std::optional<ContactLoop::Deadline> ContactLoop::Implementation::deadline_of_proofs() const {
+  if (!deadline_) {
+    return {};
+  }
+  const std::chrono::duration<double> more =
+      overtime_ * std::max(*deadline_ - begun_, Deadline::duration::zero());
+  return *deadline_ + std::chrono::duration_cast<Deadline::duration>(more);
+}
+
 /// Makes one plan and executes it as far as it is proven free. Returns whether another may gain.
-bool ContactLoop::Implementation::make_round(const HapticTargets& targets, double dt,
-                                             const std::optional<Deadline>& deadline) {
+bool ContactLoop::Implementation::make_round(const HapticTargets& targets, double dt) {
   const double left = dt - now_;
   find_contacts();
   ++cycle_.rounds;
@@ -344,7 +363,7 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
     set_courses(slot);
   }
   note_sliding(plan, slot / dt);
-  const double made = execute(plan, slot, dt, deadline);
+  const double made = execute(plan, slot, dt, deadline_of_proofs());
   return goes_on_after(plan, made, slot == left);
 }
 
@@ -354,6 +373,7 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
   require_targets(targets, dt);
   const FloatEnvironmentGuard guard;
   deadline_ = deadline;
+  begun_ = std::chrono::steady_clock::now();
   begin_cycle(dt);
   bool goes_on = true;
   while (goes_on && cycle_.rounds < options_.rounds && now_ < dt) {
@@ -361,7 +381,7 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
       cycle_.is_late = true;
       break;
     }
-    goes_on = make_round(targets, dt, deadline);
+    goes_on = make_round(targets, dt);
   }
   rest_until(dt);
   last_targets_.assign(targets.poses.begin(), targets.poses.end());
@@ -374,6 +394,7 @@ void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
   set_.sequence += 1;
   set_.stamp_ns = stamp_ns;
   set_.tools = static_cast<std::uint32_t>(tools());
+  set_.is_unproven = cycle_.is_unproven;
   detail::list_contacts(touches_, reduced_touches(), frames_, tools(), options_, set_,
                         cycle_.touches);
   for (std::size_t k = 0; k < tools(); ++k) {

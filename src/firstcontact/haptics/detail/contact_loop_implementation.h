@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -76,8 +77,8 @@ class ContactLoop::Implementation {
   void begin_members();
   void begin_links();
   void begin_pairs();
-  void measure_joints();
   [[nodiscard]] double least_reach() const;
+  void measure_joints();
   void require_start();
   [[nodiscard]] std::string name_of(std::size_t member) const;
   void find_contacts();
@@ -110,8 +111,8 @@ class ContactLoop::Implementation {
   [[nodiscard]] double least_gain() const { return detail::kLeastGain * distance_; }
   void slow_courses();
   [[nodiscard]] bool goes_on_after(const detail::GodObjectPlan& plan, double made, bool is_end);
-  [[nodiscard]] bool make_round(const HapticTargets& targets, double dt,
-                                const std::optional<Deadline>& deadline);
+  [[nodiscard]] std::optional<Deadline> deadline_of_proofs() const;
+  [[nodiscard]] bool make_round(const HapticTargets& targets, double dt);
   void begin_wait();
   void rest_until(double dt);
   void note_sliding(const detail::GodObjectPlan& plan, double part_of_cycle);
@@ -144,6 +145,8 @@ class ContactLoop::Implementation {
   std::vector<HapticTouch> touches_;
   std::optional<detail::ReducedContacts> reduced_;  // The touches, once they are reduced.
   std::optional<Deadline> deadline_;                // Of the cycle.
+  Deadline begun_;                                  // Begin of the cycle.
+  double overtime_ = 0.0;  // [-]  Time of proofs after the deadline, by the time before it.
   std::vector<detail::PlannedTouch> planned_;
   detail::LastRound last_round_;
   // Targets of the last cycle; empty before.
@@ -152,6 +155,7 @@ class ContactLoop::Implementation {
   std::vector<HapticContact> last_on_courses_;  // Contacts of the last round with such bodies.
   std::vector<HapticTouch> left_;  // Touches of the last round, where the plan turned back.
   detail::ToolFrames frames_;
+  bool has_moved_ = false;       // Whether a piece of this cycle was executed.
   bool may_part_ = true;         // False after a plan to part was in vain in this cycle.
   bool is_parting_ = false;      // Whether the plan only parts.
   double farthest_ = 0.0;        // [m]  Distance from the world's origin to which tools go.

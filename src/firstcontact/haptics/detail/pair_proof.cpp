@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -9,7 +10,10 @@
 
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/hull_proof.h>
+#include <firstcontact/motion/time_window.h>
 #include <firstcontact/query/detail/front_query.h>
+#include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/distance.h>
 
 namespace firstcontact::detail {
@@ -78,6 +82,55 @@ std::vector<MemberBall> balls_over(std::span<const HapticMember> members,
   return balls;
 }
 
+/// Searches the first contact of the hulls of two convex members. Returns whether that settles it.
+bool is_settled_by_hulls(const MovingShape& A, const MovingShape& B, FirstContactOptions options,
+                         FirstContactResult& found) {
+  options.budget.steps = kHullSteps;
+  first_contact_of_hulls(A, B, options, found);
+  return found.verdict == Verdict::free || found.verdict == Verdict::contact ||
+         found.reason == UndecidedReason::deadline;
+}
+
+/// Searches the first contact by triangles in a part of the plan.
+void search_part(const MovingShape& A, const MovingShape& B, HapticPair& pair,
+                 const FirstContactOptions& options, Workspace& workspace,
+                 FirstContactResult& found) {
+  const TimeWindow window{0.0, pair.part};
+  if (pair.front.is_empty()) {
+    first_contact_within(A, B, window, workspace, options, found);
+  } else {
+    first_contact_by_front(pair.front, A, B, window, workspace, options, found);
+    pair.front.count_work(found.work.node_groups + found.work.steps);
+  }
+}
+
+/// Searches the first contact by triangles. Where a search ends before it has proven anything, it
+/// is made again for a shorter part of the plan, in which fewer triangles can come near, and with
+/// more work. The next plan begins with both.
+void search_triangles(const MovingShape& A, const MovingShape& B, HapticPair& pair,
+                      FirstContactOptions options, Workspace& workspace,
+                      FirstContactResult& found) {
+  while (true) {
+    options.budget.steps = pair.steps;
+    search_part(A, B, pair, options, workspace, found);
+    if (found.verdict != Verdict::undecided) {
+      const std::uint64_t work = found.work.node_groups + found.work.steps;
+      pair.part = std::min(1.0, pair.part / kShorterPart);
+      pair.steps = 4 * work < pair.steps ? std::max(kProofSteps, pair.steps / 2) : pair.steps;
+      return;
+    }
+    if (found.t > kShorterPart * pair.part || found.reason == UndecidedReason::precision) {
+      return;
+    }
+    const bool is_last = found.reason != UndecidedReason::work || pair.steps == kMostProofSteps;
+    pair.part = std::max(kShortestPart, kShorterPart * pair.part);
+    pair.steps = std::min(kMostProofSteps, 2 * pair.steps);
+    if (is_last) {
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 bool are_far(const HapticMember& A, const Pose& X_WA, const HapticMember& B, const Pose& X_WB,
@@ -94,27 +147,26 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
   for (HapticPair& pair : pairs) {
     const auto [other, tool] = pair.members;
     const HeldApart held = held_apart(pair.gap, contact_distance);
+    proven.clearance = std::min(proven.clearance, held.margin);
     if (pair.may_be_far && are_far(balls[other], balls[tool], held.margin)) {
-      proven.clearance = std::min(proven.clearance, held.margin);
       continue;
     }
     FirstContactOptions options{
         .margin = held.margin, .tolerance = held.tolerance, .contacts = ContactState::none};
     options.budget.deadline = deadline;
-    options.budget.steps = kProofSteps;
     const MovingShape A{members[other].shape, motions[other]};
     const MovingShape B{members[tool].shape, motions[tool]};
-    if (pair.front.is_empty()) {
-      first_contact(A, B, workspace, options, scratch);
-    } else {
-      first_contact_by_front(pair.front, A, B, workspace, options, scratch);
-      pair.front.count_work(scratch.work.node_groups + scratch.work.steps);
+    const bool are_convex =
+        members[other].is_convex && members[tool].is_convex && may_have_front(A.shape, B.shape);
+    if (!are_convex || !is_settled_by_hulls(A, B, options, scratch)) {
+      search_triangles(A, B, pair, options, workspace, scratch);
     }
-    if (scratch.verdict != Verdict::free) {
-      proven.t = std::min(proven.t, scratch.t);
-      proven.is_late = proven.is_late || scratch.reason == UndecidedReason::deadline;
+    if (scratch.t < proven.t) {
+      proven.t = scratch.t;
+      proven.is_unproven = scratch.t == 0.0 && scratch.verdict == Verdict::undecided;
     }
-    proven.clearance = std::min(proven.clearance, held.margin);
+    proven.is_late = proven.is_late || (scratch.verdict == Verdict::undecided &&
+                                        scratch.reason == UndecidedReason::deadline);
   }
   const auto comes_nearer = [&](const HapticPair& pair) {
     if (!(pair.gap < kFloorOfGap * contact_distance)) {

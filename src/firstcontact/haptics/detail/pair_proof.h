@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/moving_pairs/detail/box_front.h>
@@ -24,6 +25,8 @@ struct HapticPair {
   /// The front of the members in that order; empty where the roots serve as well.
   BoxFront front = {};
   bool may_be_far = false;  ///< Whether balls around both are compared first.
+  double part = 1.0;        ///< [-]  The part of the next plan that a search by triangles tests.
+  std::size_t steps = kProofSteps;  ///< [node groups and steps]  The most work of that search.
 };
 
 /// Whether balls around two members are farther apart than a distance, by more than rounding.
@@ -36,6 +39,8 @@ struct ProvenPart {
   /// [m]  Proven lower bound of all distances before t. Infinite without pairs.
   double clearance = 0.0;
   bool is_late = false;  ///< Whether the deadline ended a search.
+  /// Whether nothing is proven because a search ended before it knew more.
+  bool is_unproven = false;
 };
 
 /// Proves how much of a plan is free. Nothing of it is where that brings a wedged pair nearer

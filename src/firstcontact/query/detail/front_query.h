@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include <firstcontact/motion/time_window.h>
 #include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/placed_shape.h>
@@ -23,12 +24,13 @@ namespace firstcontact::detail {
 void close_features_by_front(const PlacedShape& A, const PlacedShape& B, double band, double beside,
                              BoxFront& front, Workspace& workspace, std::vector<Contact>& contacts);
 
-/// Finds the first contact as first_contact() does, in the order of A and B, beginning at their
-/// front.
+/// Finds the first contact as first_contact_within() does, in the order of A and B, beginning at
+/// their front.
 ///
-/// @param front  front of A and B in this order, not empty
+/// @param front   front of A and B in this order, not empty
+/// @param window  when free, `t` is its end
 void first_contact_by_front(const BoxFront& front, const MovingShape& A, const MovingShape& B,
-                            Workspace& workspace, const FirstContactOptions& options,
-                            FirstContactResult& result);
+                            const TimeWindow& window, Workspace& workspace,
+                            const FirstContactOptions& options, FirstContactResult& result);
 
 }  // namespace firstcontact::detail
