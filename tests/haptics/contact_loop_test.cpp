@@ -409,6 +409,20 @@ TEST(ContactLoop, RefusesACentreSoFarThatNothingIsProven) {
   EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
 }
 
+// Nearer along each axis than its distance from the origin, beyond which no target is followed.
+TEST(ContactLoop, StaysWhereItIsFarFromTheOrigin) {
+  HapticScene scene = cube_on_floor();
+  const Vector3d far(1e6, 1e6, 0.0);
+  scene.tools[0].X_WB.position += far;
+  scene.bodies[0].X_WB.position += far;
+  scene.contact_distance = 1e-6;
+  EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
+  scene.contact_distance = 2e-6;
+  ContactLoop loop(scene);
+  run_to(loop, at(far + Vector3d(0.0, 0.0, -0.01)), 3);
+  EXPECT_LT((loop.pose(0).position - far - Vector3d(0.0, 0.0, 0.02)).norm(), 1e-5);
+}
+
 // Farther off, rounding would exceed the contact distance, and a clearance of 0 be all that holds.
 TEST(ContactLoop, GoesNoFartherThanItsClearanceIsProven) {
   for (const double far : {1e6, 1e9, 1e12}) {

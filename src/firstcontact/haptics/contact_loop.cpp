@@ -60,7 +60,9 @@ void ContactLoop::Implementation::begin_members() {
   const auto add = [&](const Shape& given, const Pose& pose, double friction) {
     const Shape shape = given.as_triangles();
     const double reach = detail::reach_of(shape);
-    extent = std::max(extent, pose.position.cwiseAbs().maxCoeff() + reach);
+    const Eigen::Vector3d middle =
+        pose.position + pose.rotation.normalized() * shape.bounds().centre;
+    extent = std::max({extent, pose.position.norm(), middle.norm() + reach});
     members_.push_back({.shape = shape, .reach = reach, .friction = friction});
     poses_.push_back(pose);
     placed_.emplace_back();
@@ -69,7 +71,8 @@ void ContactLoop::Implementation::begin_members() {
   };
   for (const HapticTool& tool : scene_.tools) {
     least_reach = std::min(least_reach, add(tool.shape, tool.X_WB, tool.friction));
-    extent = std::max(extent, tool.p_BC.norm());
+    const Eigen::Vector3d centre = tool.X_WB.position + tool.X_WB.rotation.normalized() * tool.p_BC;
+    extent = std::max({extent, tool.p_BC.norm(), centre.norm()});
   }
   for (const HapticBody& body : scene_.bodies) {
     const double reach =
