@@ -130,6 +130,40 @@ ToolTick pressed_by_an_edge(const HapticLimits& limits) {
 }
 
 // A force that is cut has less torque, or it is not one of the contacts.
+DeviceMapping driving(const DegreesOfFreedom& driven, double max_force) {
+  DeviceMapping mapping;
+  mapping.device.emplace();
+  mapping.device->driven = driven;
+  mapping.device->max_force = max_force;
+  return mapping;
+}
+
+TEST(ForceLoop, CommandsWhatTheDeviceDrives) {
+  const DeviceState below = handle_at({0.0, 0.0, -0.016});
+  const ToolTick free = OnTheFloor(DeviceMapping{}).ticks(below, 2000);
+  EXPECT_GT(free.asked.force_D.z(), 5.0);
+  EXPECT_EQ(free.command.force_D, free.asked.force_D);
+  EXPECT_FALSE(has(free, ForceFault::limited));
+  const ToolTick none = OnTheFloor(driving(DegreesOfFreedom::none(), 0.0)).ticks(below, 2000);
+  EXPECT_EQ(none.asked.force_D, free.asked.force_D);
+  EXPECT_EQ(none.command.force_D, Vector3d::Zero());
+  EXPECT_FALSE(has(none, ForceFault::limited));  // Axes that are not driven are no limit.
+  const ToolTick weak =
+      OnTheFloor(driving(DegreesOfFreedom::translation(), 2.0)).ticks(below, 2000);
+  EXPECT_NEAR(weak.command.force_D.norm(), 2.0, 1e-12);
+  EXPECT_TRUE(has(weak, ForceFault::limited));
+}
+
+TEST(ForceLoop, TellsThatNothingCouldBeProven) {
+  OnTheFloor scene;
+  HapticContactSet set = scene.contacts.contact_set();
+  const std::array devices{handle_at({0.0, 0.0, 0.1})};
+  EXPECT_FALSE(has(scene.forces.tick(kTick, set, devices).tools[0], ForceFault::unproven));
+  set.is_unproven = true;
+  EXPECT_TRUE(has(scene.forces.tick(2 * kTick, set, devices).tools[0], ForceFault::unproven));
+  EXPECT_STREQ(kForceFaultWords.back(), "unproven");
+}
+
 TEST(ForceLoop, LimitsKeepTheWrenchOneOfContacts) {
   const ToolTick whole = pressed_by_an_edge({.force = 1e3, .torque = 1e3});
   const double force = whole.force_W.norm();

@@ -8,14 +8,20 @@
 namespace firstcontact {
 namespace {
 
-/// Takes the driven components of a vector, with a length of at most `most`.
-Eigen::Vector3d limited_part(const Eigen::Vector3d& vector, const std::array<bool, 3>& driven,
-                             double most) {
+/// Takes the driven components of a vector.
+Eigen::Vector3d along_driven(const Eigen::Vector3d& vector, const std::array<bool, 3>& driven) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     result[i] = driven[axis] ? vector[i] : 0.0;
   }
+  return result;
+}
+
+/// Takes the driven components of a vector, with a length of at most `most`.
+Eigen::Vector3d limited_part(const Eigen::Vector3d& vector, const std::array<bool, 3>& driven,
+                             double most) {
+  const Eigen::Vector3d result = along_driven(vector, driven);
   const double largest = result.lpNorm<Eigen::Infinity>();
   if (!(most > 0.0) || !(largest > 0.0)) {
     return Eigen::Vector3d::Zero();
@@ -34,6 +40,18 @@ std::int64_t steady_now_ns() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+ForceCommand driven_part(const ForceCommand& command,
+                         const DeviceCapabilities& capabilities) noexcept {
+  ForceCommand driven{.force_D = along_driven(command.force_D, capabilities.driven.linear),
+                      .torque_D = along_driven(command.torque_D, capabilities.driven.angular)};
+  for (std::size_t k = 0; k < kMostGrips; ++k) {
+    const bool is_driven =
+        capabilities.max_grip_effort > 0.0 && static_cast<int>(k) < capabilities.grips;
+    driven.grips[k] = is_driven ? command.grips[k] : 0.0;
+  }
+  return driven;
 }
 
 ForceCommand limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept {

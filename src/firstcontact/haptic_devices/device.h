@@ -189,6 +189,10 @@ class FIRSTCONTACT_API Device {
 /// The steady clock [ns], as real loops pass it to `Device::read`.
 [[nodiscard]] FIRSTCONTACT_API std::int64_t steady_now_ns() noexcept;
 
+/// Takes the components of a command that the device drives, however large; the others are 0.
+[[nodiscard]] FIRSTCONTACT_API ForceCommand
+driven_part(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept;
+
 /// Limits a command to what the device drives: components along other axes are 0. The lengths are
 /// at most `max_force` and `max_torque`, efforts of grips at most `max_grip_effort`. A number that
 /// is not finite makes all 0.

@@ -132,6 +132,7 @@ struct FeltTool {
   double stiffness = 0.0;            // [N/m]
   double look_ahead = 0.0;           // [s]  Damping by stiffness.
   double scale = 1.0;                // [-]
+  std::optional<DeviceCapabilities> device = {};
   Eigen::Quaterniond R_DW = Eigen::Quaterniond::Identity();
   Pose last_target;
   bool has_last = false;
@@ -168,6 +169,7 @@ class ForceLoop::Implementation {
       felt.stiffness = tool.coupling.stiffness;
       felt.look_ahead = tool.coupling.damping / tool.coupling.stiffness;
       felt.scale = mapping.scale;
+      felt.device = mapping.device;
       felt.R_DW = mapping.R_WD.conjugate();
       tools_.push_back(std::move(felt));
       tick_.tools[k].target = start;
@@ -204,13 +206,13 @@ class ForceLoop::Implementation {
       if (!projected.is_solved[k]) {
         tick_.tools[k].faults |= bit(ForceFault::unsolved);
       }
-      set_share(tools_[k], seconds, tick_.tools[k].faults);
-      give_force(k, projected.force, seconds);
       if (set.is_unproven) {
         tick_.tools[k].faults |= bit(ForceFault::unproven);
       }
+      set_share(tools_[k], seconds, tick_.tools[k].faults);
+      give_force(k, projected.force, seconds);
       give_efforts(k, projected.force, seconds);
-      tick_.tools[k].asked = tick_.tools[k].command;
+      give_command(k);
     }
     return tick_;
   }
@@ -371,8 +373,8 @@ class ForceLoop::Implementation {
                         const Vector3d& torque_W) noexcept {
     tick.force_W = force_W;
     tick.torque_W = torque_W;
-    tick.command.force_D = tool.scale * (tool.R_DW * force_W);
-    tick.command.torque_D = tool.R_DW * torque_W;
+    tick.asked.force_D = tool.scale * (tool.R_DW * force_W);
+    tick.asked.torque_D = tool.R_DW * torque_W;
   }
 
   /// Computes the efforts of joints, and the efforts on the grips that move them.
@@ -395,16 +397,30 @@ class ForceLoop::Implementation {
         tick.faults |= bit(ForceFault::limited);
       }
       effort *= tool.share;
-      const double before = tick.command.grips[grip];
+      const double before = tick.asked.grips[grip];
       if (!ends_at_once(tick) && std::abs(effort - before) > kSlew * most * seconds) {
         effort =
             std::clamp(effort, before - kSlew * most * seconds, before + kSlew * most * seconds);
         tick.faults |= bit(ForceFault::slewed);
       }
-      tick.command.grips[grip] = effort;
+      tick.asked.grips[grip] = effort;
     }
     for (std::size_t joint = 0; joint < links_->joints().size(); ++joint) {
       tick_.joint_efforts[joint] *= links_->tool_of_joint(joint) == k ? tool.share : 1.0;
+    }
+  }
+
+  /// Cuts a command to what the device drives. Axes that it does not drive are no limit.
+  void give_command(std::size_t k) noexcept {
+    ToolTick& tick = tick_.tools[k];
+    tick.command = tick.asked;
+    if (tools_[k].device) {
+      const ForceCommand driven = driven_part(tick.asked, *tools_[k].device);
+      tick.command = limited(driven, *tools_[k].device);
+      const bool is_limited = tick.command.force_D != driven.force_D ||
+                              tick.command.torque_D != driven.torque_D ||
+                              tick.command.grips != driven.grips;
+      tick.faults |= is_limited ? bit(ForceFault::limited) : 0U;
     }
   }
 

@@ -52,6 +52,8 @@ struct DeviceMapping {
   int dead_man_button = -1;  ///< Button that does the same while it is not pressed; -1: none.
   /// Mappings of the device's values in order; at most kMostGrips.
   std::vector<GripMapping> grips = {};
+  /// The device, whose abilities limit commands; without one, commands are as they are asked for.
+  std::optional<DeviceCapabilities> device = {};
 };
 
 /// The limits of the force on a hand, for any scene.
@@ -102,7 +104,7 @@ struct ToolTick {
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About that centre.
   /// The force and the torque for the device, with components that it does not drive.
   ForceCommand asked = {};
-  /// The same, cut in a wall session to the components that the device drives.
+  /// The same, cut to what the device drives (DeviceMapping::device).
   ForceCommand command = {};
   std::uint32_t faults = 0;  ///< Bits of ForceFault.
   /// [-]  Values of grips in force: by the device, or by buttons.

@@ -137,16 +137,6 @@ class ForceThread {
     }
   }
 
-  /// Limits the command to what the device can follow, for the log.
-  static void limit(ToolTick& tool, const DeviceCapabilities& capabilities) noexcept {
-    const ForceCommand allowed = limited(tool.command, capabilities);
-    if (allowed.force_D != tool.command.force_D || allowed.torque_D != tool.command.torque_D ||
-        allowed.grips != tool.command.grips) {
-      tool.command = allowed;
-      tool.faults |= static_cast<std::uint32_t>(ForceFault::limited);
-    }
-  }
-
   void make_tick(std::int64_t now) {
     const std::int64_t cpu = cpu_now_ns();
     std::array<DeviceState, kMostTools> states;
@@ -154,10 +144,9 @@ class ForceThread {
       states[k] = devices_[k]->read(now);
     }
     const HapticContactSet& set = shared_.sets.newest();
-    ForceTick tick = loop_.tick(now, set, std::span(states.data(), devices_.size()));
+    const ForceTick& tick = loop_.tick(now, set, std::span(states.data(), devices_.size()));
     HandedTargets handed{.sequence = ++sequence_, .time_ns = now};
     for (std::size_t k = 0; k < devices_.size(); ++k) {
-      limit(tick.tools[k], devices_[k]->capabilities());
       devices_[k]->command(tick.tools[k].command, now);
       leads_[k].watch(now, tick.tools[k]);
       handed.targets[k] = leads_[k].target_in(detail::is_rubbing(set, k) ? 0.0 : lead_);
@@ -284,6 +273,17 @@ void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns
 class RunningThreads {
  public:
   RunningThreads(SharedSession& shared, ForceThread& force, ContactThread& contact)
+/// The mappings of a session, each with the abilities of its device.
+std::vector<DeviceMapping> mappings_of(const HapticScene& scene,
+                                       const HapticSessionOptions& options,
+                                       std::span<Device* const> devices) {
+  std::vector<DeviceMapping> mappings = complete_mappings(scene, options.mappings);
+  for (std::size_t k = 0; k < mappings.size(); ++k) {
+    mappings[k].device = devices[k]->capabilities();
+  }
+  return mappings;
+}
+
       : shared_(shared),
         contact_([&contact] { contact.run(); }),
         force_([&force] { force.run(); }) {}
@@ -318,7 +318,7 @@ WallSessionReport run_wall_session(
   HapticSessionOptions without_latency = options;
   without_latency.contact_latency_ns = 0;
   const detail::SessionPeriods periods = detail::session_periods(without_latency);
-  const std::vector<DeviceMapping> mappings = complete_mappings(scene, options.mappings);
+  const std::vector<DeviceMapping> mappings = mappings_of(scene, options, devices);
   ForceLoop forces(scene, mappings, options.forces);
   ContactLoop contacts(std::move(scene), options.contacts);
   const auto shared = std::make_unique<SharedSession>();
