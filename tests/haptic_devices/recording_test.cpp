@@ -91,6 +91,22 @@ TEST(Recording, HasAsManyButtonsAsItsColumnCanPress) {
   EXPECT_EQ(buttons_of("# buttons: 3\n", ""), 0);
 }
 
+TEST(Recording, HasNoLimitsThatItsHeadDoesNotState) {
+  const auto head_of = [](const std::string& keys) {
+    return parse_recording("# firstcontact recording: 1\n" + keys +
+                               "time_ns,sequence,x,y,z,qw,qx,qy,qz\n0,1,0,0,0,1,0,0,0\n",
+                           "hand.csv")
+        .capabilities;
+  };
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(head_of("# driven: 111000\n").max_force, kInfinite);
+  EXPECT_EQ(head_of("# driven: 111000\n").max_stiffness, kInfinite);
+  EXPECT_EQ(head_of("# driven: 111000\n").max_torque, 0.0);
+  EXPECT_EQ(head_of("# driven: 000001\n").max_torque, kInfinite);
+  EXPECT_EQ(head_of("# max_force: 2\n# driven: 111000\n").max_force, 2.0);
+  EXPECT_EQ(head_of("").max_force, 0.0);
+}
+
 TEST(Recording, ReadsBackToTheSameNumbers) {
   for (const DeviceKind kind : {DeviceKind::pose, DeviceKind::rate}) {
     const Recording written = random_recording(kind, 3);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -78,6 +79,22 @@ bool is_needed(Column column, DeviceKind kind) {
 constexpr int kMostButtons = 32;
 constexpr int kUnstated = -1;
 
+/// A key whose value limits commands along driven axes.
+struct LimitKey {
+  std::string_view name;
+  double DeviceCapabilities::*value;
+  bool is_angular = false;
+};
+
+constexpr std::array<LimitKey, 6> kLimitKeys{{
+    {"max_force", &DeviceCapabilities::max_force},
+    {"max_stiffness", &DeviceCapabilities::max_stiffness},
+    {"max_damping", &DeviceCapabilities::max_damping},
+    {"max_torque", &DeviceCapabilities::max_torque, true},
+    {"max_angular_stiffness", &DeviceCapabilities::max_angular_stiffness, true},
+    {"max_angular_damping", &DeviceCapabilities::max_angular_damping, true},
+}};
+
 class RecordingParser {
  public:
   RecordingParser(std::string_view text, std::string source)
@@ -104,10 +121,24 @@ class RecordingParser {
     if (recording_.samples.empty()) {
       throw ParseError(source_, "expected at least one sample below the column names");
     }
+    free_unstated_limits();
     return std::move(recording_);
   }
 
  private:
+  /// Makes the limits of driven axes infinite where the head states none.
+  void free_unstated_limits() {
+    DeviceCapabilities& device = recording_.capabilities;
+    for (const LimitKey& key : kLimitKeys) {
+      const std::array<bool, 3>& driven =
+          key.is_angular ? device.driven.angular : device.driven.linear;
+      if (std::ranges::find(driven, true) != driven.end() &&
+          std::ranges::find(keys_, key.name) == keys_.end()) {
+        device.*key.value = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+
   [[noreturn]] void fail(const std::string& message) const {
     throw ParseError(source_, number_, message);
   }
