@@ -203,6 +203,7 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   EXPECT_EQ(cycles, report.cycles);
   EXPECT_EQ(stale, 0U);  // Not even the first ticks, before a cycle is over.
   EXPECT_EQ(report.unread_ticks, 0U);
+  EXPECT_EQ(report.behind_ns, 0);  // Nothing but the tool moves here.
   EXPECT_EQ(report.tick_cpu.count(), report.ticks);
   EXPECT_GE(report.ticks + report.skipped_ticks, 49U);
   EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.

@@ -68,9 +68,9 @@ TEST(HapticsFile, HasGripsOfRobotsAlone) {
 
 TEST(HapticsFile, TakesEveryKey) {
   const HapticQuestion read = haptics_of(
-      R"({"tools": [{"body": "plate"}, {"body": "peg", "stiffness": 1, "angular_stiffness": 2,
+      R"({"tools": [{"body": "plate", "begins_at_handle": true}, {"body": "peg", "stiffness": 1, "angular_stiffness": 2,
            "damping": 0, "scale": 4, "centre": [5, 6, 7], "device_axes": {"rpy": [0, 0, 0.5]},
-           "handle": {"position": [8, 9, 10]}, "begins_at_handle": true, "clutch_button": 0,
+           "handle": {"position": [8, 9, 10]}, "begins_at_handle": false, "clutch_button": 0,
            "dead_man_button": 31}],
           "contact_distance": 1e-4, "friction": 0.5, "force_rate": 1000000, "contact_rate": 1,
           "max_force": 0, "max_torque": 11, "force_slew": 12, "torque_slew": 13})");
@@ -84,7 +84,8 @@ TEST(HapticsFile, TakesEveryKey) {
   EXPECT_EQ(tool.centre, Eigen::Vector3d(5, 6, 7));
   EXPECT_NEAR(tool.device_axes.z(), std::sin(0.25), 1e-15);
   EXPECT_EQ(tool.handle.position, Eigen::Vector3d(8, 9, 10));
-  EXPECT_TRUE(tool.begins_at_handle);
+  EXPECT_TRUE(read.tools[0].begins_at_handle);
+  EXPECT_FALSE(tool.begins_at_handle);
   EXPECT_EQ(tool.clutch_button, 0);
   EXPECT_EQ(tool.dead_man_button, 31);
   EXPECT_EQ(read.contact_distance, 1e-4);
@@ -95,6 +96,12 @@ TEST(HapticsFile, TakesEveryKey) {
   EXPECT_EQ(read.max_torque, 11.0);
   EXPECT_EQ(read.force_slew, 12.0);
   EXPECT_EQ(read.torque_slew, 13.0);
+}
+
+TEST(HapticsFile, HasNoContactRateAboveItsForceRate) {
+  const std::string tools = R"({"tools": [{"body": "peg"}], )";
+  EXPECT_EQ(haptics_of(tools + R"("force_rate": 500})").contact_rate, 500.0);
+  EXPECT_EQ(haptics_of(tools + R"("force_rate": 8000})").contact_rate, 1000.0);
 }
 
 TEST(HapticsFile, SaysWhatIsWrong) {
@@ -117,8 +124,7 @@ TEST(HapticsFile, SaysWhatIsWrong) {
       {tools + R"("force_rate": 1000001})", ".force_rate: expected 100 Hz to 1e6 Hz, got 1000001"},
       {tools + R"("force_rate": 99})", ".force_rate: expected 100 Hz to 1e6 Hz, got 99"},
       {tools + R"("contact_rate": 0.5})", ".contact_rate: expected 1 Hz or more, got 0.5"},
-      // One of the two is a default: neither alone is wrong.
-      {tools + R"("force_rate": 500})",
+      {tools + R"("force_rate": 500, "contact_rate": 501})",
        ": expected a \"contact_rate\" that is at most the \"force_rate\""},
       {tools + R"("contact_rate": 4001})",
        ": expected a \"contact_rate\" that is at most the \"force_rate\""}};
@@ -153,6 +159,8 @@ TEST(HapticsFile, SaysWhatIsWrongWithATool) {
       {R"("body": "peg", "handle": [])",
        ".handle: expected an object with \"position\", \"quaternion_wxyz\", \"rpy\", "
        "\"rotation_vector\", \"matrix\", got an array of 0"},
+      {R"("body": "peg", "handle": {}, "begins_at_handle": true)",
+       ".begins_at_handle: expected either a \"handle\" or \"begins_at_handle\": true, got both"},
       {R"("body": "peg", "begins_at_handle": 1)",
        ".begins_at_handle: expected true or false, got 1"},
       {R"("body": "peg", "clutch_button": -1)",

@@ -225,6 +225,10 @@ class ContactThread {
 
   /// Counts the time by which courses fall behind the wall clock: they move on by a period a cycle.
   void count_delay(std::int64_t begin) {
+    if (!std::ranges::any_of(loop_.scene().bodies,
+                             [](const HapticBody& body) { return body.course.has_value(); })) {
+      return;
+    }
     report_.behind_ns += begin_ ? begin - *begin_ - period_ns_ : 0;
     begin_ = begin;
   }
@@ -269,10 +273,6 @@ void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns
   shared.sets.put(set);
 }
 
-/// Ends both threads, even where the caller's functions throw.
-class RunningThreads {
- public:
-  RunningThreads(SharedSession& shared, ForceThread& force, ContactThread& contact)
 /// The mappings of a session, each with the abilities of its device.
 std::vector<DeviceMapping> mappings_of(const HapticScene& scene,
                                        const HapticSessionOptions& options,
@@ -284,6 +284,10 @@ std::vector<DeviceMapping> mappings_of(const HapticScene& scene,
   return mappings;
 }
 
+/// Ends both threads, even where the caller's functions throw.
+class RunningThreads {
+ public:
+  RunningThreads(SharedSession& shared, ForceThread& force, ContactThread& contact)
       : shared_(shared),
         contact_([&contact] { contact.run(); }),
         force_([&force] { force.run(); }) {}

@@ -38,6 +38,7 @@ class HapticsReader {
     }
     take_not_negative(object, "friction", haptics.friction);
     take_positive(object, "force_rate", haptics.force_rate);
+    haptics.contact_rate = std::min(haptics.contact_rate, haptics.force_rate);
     take_positive(object, "contact_rate", haptics.contact_rate);
     take_not_negative(object, "max_force", haptics.max_force);
     take_not_negative(object, "max_torque", haptics.max_torque);
@@ -104,6 +105,9 @@ class HapticsReader {
     }
     if (const JsonValue* begins = find(object, "begins_at_handle")) {
       tool.begins_at_handle = read_.boolean(*begins);
+      if (tool.begins_at_handle && find(object, "handle") != nullptr) {
+        read_.fail(*begins, "expected either a \"handle\" or \"begins_at_handle\": true, got both");
+      }
     }
     tool.clutch_button = button(object, "clutch_button");
     tool.dead_man_button = button(object, "dead_man_button");
