@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/near_patches.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/detail/facing_cell.h>
 #include <firstcontact/query/detail/front_query.h>
@@ -81,17 +82,42 @@ void ContactFinder::choose(const HapticMember& other, const PlacedShape& other_a
   }
 }
 
-double ContactFinder::find(const HapticMember& other, const PlacedShape& other_at,
-                           const HapticMember& tool, const PlacedShape& tool_at, BoxFront& front,
-                           std::vector<HapticTouch>& touches) {
-  const double reach = std::min(other.reach, tool.reach);
+/// Finds all features within the band.
+void ContactFinder::find_features(const HapticMember& other, const PlacedShape& other_at,
+                                  const HapticMember& tool, const PlacedShape& tool_at,
+                                  double beside, BoxFront& front) {
   const double band = kContactBand * distance_;
-  const double beside = kWidthOfNeighbourhood * reach;
-  if (may_have_front(other.shape, tool.shape)) {
+  const bool may_front = may_have_front(other.shape, tool.shape);
+  if (may_front && other.is_convex && tool.is_convex) {
+    const NearPatches near = near_patches(other_at, tool_at, band);
+    if (near.are_apart) {
+      contacts_.clear();
+      return;
+    }
+    if (near.patches) {
+      const auto& [of_other, of_tool] = *near.patches;
+      close_features(PlacedShape(of_other.shape, other_at.pose()),
+                     PlacedShape(of_tool.shape, tool_at.pose()), band, workspace_, contacts_,
+                     beside);
+      for (Contact& contact : contacts_) {
+        contact.feature_A = of_other.in_whole(other.shape, contact.feature_A);
+        contact.feature_B = of_tool.in_whole(tool.shape, contact.feature_B);
+      }
+      return;
+    }
+  }
+  if (may_front) {
     close_features_by_front(other_at, tool_at, band, beside, front, workspace_, contacts_);
   } else {
     close_features(other_at, tool_at, band, workspace_, contacts_, beside);
   }
+}
+
+double ContactFinder::find(const HapticMember& other, const PlacedShape& other_at,
+                           const HapticMember& tool, const PlacedShape& tool_at, BoxFront& front,
+                           std::vector<HapticTouch>& touches) {
+  const double reach = std::min(other.reach, tool.reach);
+  find_features(other, other_at, tool, tool_at, kWidthOfNeighbourhood * reach, front);
   double least = std::numeric_limits<double>::infinity();
   for (const Contact& contact : contacts_) {
     least = std::min(least, contact.distance);

@@ -40,6 +40,9 @@ class ContactFinder {
               const PlacedShape& tool_at, BoxFront& front, std::vector<HapticTouch>& touches);
 
  private:
+  void find_features(const HapticMember& other, const PlacedShape& other_at,
+                     const HapticMember& tool, const PlacedShape& tool_at, double beside,
+                     BoxFront& front);
   void choose(const HapticMember& other, const PlacedShape& other_at, const HapticMember& tool,
               const PlacedShape& tool_at);
   void keep_nearest_of_many(double width);
