@@ -51,6 +51,7 @@ struct Arguments {
   std::string limits;
   GivenLimits others;
   std::optional<double> tolerance;
+  std::optional<double> blend_deviation;
   std::string which;  ///< Robot of a scene.
   bool lenient = false;
   int threads = 0;
@@ -173,7 +174,10 @@ class Report {
          retimed_.mode == RetimingMode::stop
              ? word + ": no motion with blends is proven and faster"
              : fmt::format("{}: passes {} of {} waypoints on blends, {} made shorter to be free",
-                           word, retimed_.blends, inner, retimed_.shortened));
+                           word, retimed_.blends, inner, retimed_.shortened) +
+                   (retimed_.left_out == 0
+                        ? ""
+                        : fmt::format("; {} on straight edges", retimed_.left_out)));
   }
 
   [[nodiscard]] const std::string& joint(std::size_t index) const {
@@ -281,7 +285,8 @@ ExitStatus retime_path(const Arguments& arguments) {
     const std::vector<RateLimits> limits = rate_limits(arguments, input, model, given);
     require_names(input.path.joint_names, format, model);
     progress.doing("retiming");
-    RetimingOptions options{.mode = mode_of(arguments.mode)};
+    RetimingOptions options{.mode = mode_of(arguments.mode),
+                            .blend_deviation = arguments.blend_deviation};
     options.proof.tolerance = arguments.tolerance.value_or(input.scene.options.tolerance);
     options.proof.threads = arguments.threads;
     options.proof.budget.stop = interrupt.token();
@@ -372,6 +377,9 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
              "[rad/s^3 or m/s^3] For joints that have no limit in --limits; by default unlimited");
   add_number(*command, "--tolerance", arguments->tolerance, Range::positive,
              "[m] Replaces the scene's");
+  add_number(*command, "--blend-deviation", arguments->blend_deviation, Range::positive,
+             "[rad or m] How far each joint may leave the path in the modes blend and "
+             "time_optimal; by default as far as blends gain time");
   command->add_option("--which", arguments->which, "The robot, in a scene with several")
       ->type_name("NAME");
   command->add_flag("--lenient", arguments->lenient, "Unknown names in files are warnings");

@@ -69,6 +69,25 @@ class Retime(tool_test.ToolTest):
         self.assertLess(durations[1], durations[0])
         self.assertLessEqual(durations[2], durations[1])
 
+    def test_leaves_out_waypoints_on_straight_edges(self):
+        rows = "".join(f"{k},{k / 300},{-k / 600}\n" for k in range(301))
+        way = self.file("fine.csv", "time,shoulder,elbow\n" + rows)
+        for mode in ["blend", "time_optimal"]:
+            result = self.retime("--trajectory", way, "--mode", mode)
+            self.assertEqual(result.returncode, 0, result)
+            self.assertIn("passes 0 of 299 waypoints on blends, 0 made shorter to be free; 299 on straight edges",
+                          self.lines(result.stdout)["mode"])
+
+    def test_blend_deviation(self):
+        durations = []
+        for deviation in ["0.001", "0.1"]:
+            result = self.retime("--trajectory", self.way, "--mode", "blend", "--blend-deviation", deviation,
+                                 out="out.csv")
+            self.assertEqual(result.returncode, 0, result)
+            durations.append(float((self.folder / "out.csv").read_text().splitlines()[-1].split(",")[0]))
+        self.assertLess(durations[1], durations[0])
+        self.assertEqual(self.retime("--trajectory", self.way, "--blend-deviation", "0").returncode, 2)
+
     def test_names_pair_and_time_where_there_is_none(self):
         way = self.file("blocked.csv", "time,shoulder,elbow\n0,0,0\n1,1.5,0\n")
         result = self.retime("--trajectory", way, "--environment", self.ball, "--mode", "blend")

@@ -853,7 +853,7 @@ def retime(scene: Scene | None, text: str | None, file: _Path, *, mode: str, lim
            limits_file: _Path | None, max_velocity: float | None, max_acceleration: float | None,
            max_jerk: float | None, velocity_scaling: float, acceleration_scaling: float,
            tracking_error: float | None, tolerance: float | None,
-           which: str | None, lenient: bool, threads: int,
+           blend_deviation: float | None, which: str | None, lenient: bool, threads: int,
            stop: StopSource | None) -> RetimeAnswer: ...
 
 def verify_run(path: _Path, *, scripted_tolerance: float = ..., work: int = ..., threads: int = ...,

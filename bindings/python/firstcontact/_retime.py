@@ -23,8 +23,9 @@ def retime(path: PathOfRobots, *, mode: str = "stop", limits: JointLimits | None
            max_velocity: float | None = None, max_acceleration: float | None = None,
            max_jerk: float | None = None, velocity_scaling: float = 1.0,
            acceleration_scaling: float = 1.0, tracking_error: float | None = None,
-           tolerance: float | None = None, which: str | None = None, lenient: bool = False,
-           threads: int = 0, stop: StopSource | None = None) -> RetimeAnswer:
+           tolerance: float | None = None, blend_deviation: float | None = None,
+           which: str | None = None, lenient: bool = False, threads: int = 0,
+           stop: StopSource | None = None) -> RetimeAnswer:
     """Times a path of robots within joint limits, and proves what a controller makes of it.
 
     The same trajectory as that of the tool's ``firstcontact retime``. path: the answer of ``plan``;
@@ -35,8 +36,9 @@ def retime(path: PathOfRobots, *, mode: str = "stop", limits: JointLimits | None
     several robots are ROBOT/NAME. max_velocity, max_acceleration, max_jerk: [rad or m; per s, s^2,
     s^3] of joints that have no other limit. velocity_scaling, acceleration_scaling: factors of all
     limits, in (0, 1], as a PlanningRequest of MoveIt has them. tracking_error: [rad or m] of the controller, of every
-    joint, in place of the scene's. tolerance: [m] in place of the scene's. which: the robot, in a
-    scene with several. lenient: as load_scene. threads: at most; 0 for one on each core; the answer
+    joint, in place of the scene's. tolerance: [m] in place of the scene's. blend_deviation:
+    [rad or m] how far each joint may leave the path in ``blend`` and ``time_optimal``; by default
+    as far as blends gain time. which: the robot, in a scene with several. lenient: as load_scene. threads: at most; 0 for one on each core; the answer
     does not depend on it. stop: ends the work, with an undecided answer. Other threads run
     meanwhile. Ctrl-C raises KeyboardInterrupt.
 
@@ -60,7 +62,8 @@ def retime(path: PathOfRobots, *, mode: str = "stop", limits: JointLimits | None
     return _retime(scene, text, file, mode=mode, limits_text=limits_text, limits_file=limits_file,
                    max_velocity=max_velocity, max_acceleration=max_acceleration, max_jerk=max_jerk,
                    velocity_scaling=velocity_scaling, acceleration_scaling=acceleration_scaling,
-                   tracking_error=tracking_error, tolerance=tolerance, which=which, lenient=lenient,
+                   tracking_error=tracking_error, tolerance=tolerance,
+                   blend_deviation=blend_deviation, which=which, lenient=lenient,
                    threads=threads, stop=stop)
 
 

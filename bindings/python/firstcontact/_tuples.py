@@ -339,6 +339,8 @@ class RetimeAnswer(NamedTuple):
     """Waypoints that are passed without rest."""
     shortened: int
     """Times that a blend was made shorter, as it was not free."""
+    left_out: int
+    """Waypoints that edges of the motion pass closely, without a blend."""
     closest: RetimedMoment | None
     """The closest approach, if proven; None where no pair is tested."""
     held: tuple[HeldPair, ...]

@@ -233,9 +233,10 @@ py::object answer_of(const Retiming& retiming) {
       kRetimingModeWords.at(static_cast<std::size_t>(retiming.made.mode)),
       is_proven ? py::cast(trajectory_of(retiming.made.motion)) : py::none(),
       retiming.proof.duration, retiming.made.stop_duration, retiming.made.blends,
-      retiming.made.shortened, closest_of(retiming), held_pairs_of(retiming), rates_of(retiming),
-      contact_of(retiming), left_limits_of(retiming), py::tuple(warnings),
-      text(TrajectoryFormat::yaml), text(TrajectoryFormat::json), text(TrajectoryFormat::csv));
+      retiming.made.shortened, retiming.made.left_out, closest_of(retiming),
+      held_pairs_of(retiming), rates_of(retiming), contact_of(retiming), left_limits_of(retiming),
+      py::tuple(warnings), text(TrajectoryFormat::yaml), text(TrajectoryFormat::json),
+      text(TrajectoryFormat::csv));
 }
 
 py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> text,
@@ -245,14 +246,16 @@ py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> tex
                          std::optional<double> max_velocity, std::optional<double> max_acceleration,
                          std::optional<double> max_jerk, double velocity_scaling,
                          double acceleration_scaling, std::optional<double> tracking_error,
-                         std::optional<double> tolerance, const std::optional<std::string>& which,
-                         bool lenient, int threads, OrNone<std::stop_source> stop) {
+                         std::optional<double> tolerance, std::optional<double> blend_deviation,
+                         const std::optional<std::string>& which, bool lenient, int threads,
+                         OrNone<std::stop_source> stop) {
   require_above_zero(max_velocity, "max_velocity");
   require_above_zero(max_acceleration, "max_acceleration");
   require_above_zero(max_jerk, "max_jerk");
   require_scaling(velocity_scaling, "velocity_scaling");
   require_scaling(acceleration_scaling, "acceleration_scaling");
   require_above_zero(tolerance, "tolerance");
+  require_above_zero(blend_deviation, "blend_deviation");
   if (tracking_error && !(*tracking_error >= 0.0 && std::isfinite(*tracking_error))) {
     throw py::value_error("tracking_error: expected a finite number >= 0, got " +
                           std::string(py::repr(py::float_(*tracking_error))));
@@ -264,14 +267,15 @@ py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> tex
     require_file(*limits_file);
   }
   const RetimingSource source{scene, std::move(text), std::move(file), which.value_or(""), lenient};
-  RetimingWish wish{std::move(limits_text),
-                    std::move(limits_file),
-                    {max_velocity, max_acceleration, max_jerk},
-                    velocity_scaling,
-                    acceleration_scaling,
-                    tracking_error,
-                    tolerance,
-                    {.mode = retiming_mode_from(mode), .proof = {}}};
+  RetimingWish wish{
+      std::move(limits_text),
+      std::move(limits_file),
+      {max_velocity, max_acceleration, max_jerk},
+      velocity_scaling,
+      acceleration_scaling,
+      tracking_error,
+      tolerance,
+      {.mode = retiming_mode_from(mode), .blend_deviation = blend_deviation, .proof = {}}};
   wish.options.proof.threads = threads;
   return answer_of(
       run_query(stop, [&](QueryStop& query) { return retimed(source, wish, query.token()); }));
@@ -284,7 +288,8 @@ void bind_retiming(py::module_& m) {
         py::arg("mode"), py::arg("limits_text"), py::arg("limits_file"), py::arg("max_velocity"),
         py::arg("max_acceleration"), py::arg("max_jerk"), py::arg("velocity_scaling"),
         py::arg("acceleration_scaling"), py::arg("tracking_error"), py::arg("tolerance"),
-        py::arg("which"), py::arg("lenient"), py::arg("threads"), py::arg("stop"));
+        py::arg("blend_deviation"), py::arg("which"), py::arg("lenient"), py::arg("threads"),
+        py::arg("stop"));
 }
 
 }  // namespace firstcontact::python

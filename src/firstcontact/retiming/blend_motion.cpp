@@ -16,6 +16,9 @@ namespace {
 
 using detail::LineLimits;
 
+/// [-]  Distance of a blend from the path, by half of T (w - u).
+constexpr double kDeviationByTurn = 3.0 / 16.0;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The blend at one waypoint, in the units of the edges.
@@ -32,8 +35,8 @@ struct BlendPlan {
 class BlendPlanner {
  public:
   BlendPlanner(const WaypointPath& path, const std::vector<RateLimits>& limits,
-               const std::vector<double>& longest, double share)
-      : path_(path), limits_(limits), longest_(longest), share_(share) {
+               const std::vector<double>& longest, double share, double deviation)
+      : path_(path), limits_(limits), longest_(longest), share_(share), deviation_(deviation) {
     for (std::size_t edge = 0; edge + 1 < path.waypoints.size(); ++edge) {
       lines_.push_back(detail::line_limits(path, edge, limits, share, true));
     }
@@ -141,15 +144,36 @@ class BlendPlanner {
     return path_.waypoints[edge + 1][joint] - path_.waypoints[edge][joint];
   }
 
-  /// The fastest blend of given lengths.
+  /// [rad or m]  Half of T (w - u) of a joint, without its sign.
+  [[nodiscard]] double half_turn(std::size_t at, double before, double after,
+                                 std::size_t joint) const {
+    return std::abs(after * way(at, joint) - before * way(at - 1, joint));
+  }
+
+  /// [-]  Factor of the lengths of a blend so that it stays near the path.
+  [[nodiscard]] double nearness(std::size_t at, double before, double after) const {
+    double factor = 1.0;
+    for (std::size_t joint = 0; joint < limits_.size(); ++joint) {
+      const double off = kDeviationByTurn * half_turn(at, before, after, joint);
+      factor = off > deviation_ ? std::min(factor, deviation_ / off) : factor;
+    }
+    return factor;
+  }
+
+  /// The fastest blend of given lengths, or shorter ones where it would leave the path too far.
   [[nodiscard]] BlendPlan shortest_blend(std::size_t at, double before, double after) const {
+    const double factor = nearness(at, before, after);
+    before *= factor;
+    after *= factor;
     if (!(before > 0.0 && after > 0.0)) {
       return {};
     }
-    double seconds = std::max(2.0 * before / lines_[at - 1].rate, 2.0 * after / lines_[at].rate);
+    // A shorter phase would be made longer, and its rates lower than its neighbours count on.
+    constexpr double kShortest = static_cast<double>(detail::kShortestPhase) * 1e-9;  // [s]
+    double seconds =
+        std::max({kShortest, 2.0 * before / lines_[at - 1].rate, 2.0 * after / lines_[at].rate});
     for (std::size_t joint = 0; joint < limits_.size(); ++joint) {
-      // Half of T (w - u).
-      const double turn = std::abs(after * way(at, joint) - before * way(at - 1, joint));
+      const double turn = half_turn(at, before, after, joint);
       seconds = std::max(seconds, std::sqrt(3.0 * turn / (share_ * limits_[joint].acceleration)));
       if (limits_[joint].jerk) {
         seconds = std::max(seconds, std::cbrt(12.0 * turn / (share_ * *limits_[joint].jerk)));
@@ -221,6 +245,7 @@ class BlendPlanner {
   const std::vector<RateLimits>& limits_;
   const std::vector<double>& longest_;
   double share_;
+  double deviation_;  // [rad or m]
   std::vector<LineLimits> lines_;
   std::vector<BlendPlan> plan_;
   std::vector<BlendPlan> trial_;      // As plan_, except for the blends on trial.
@@ -235,14 +260,14 @@ std::int64_t whole_blend(double seconds) {
 }  // namespace
 
 BlendedMotion blend_motion(const WaypointPath& path, const std::vector<RateLimits>& limits,
-                           const std::vector<double>& longest, double share) {
+                           const std::vector<double>& longest, double share, double deviation) {
   require_path(path);
   require_limits(path.joint_names, limits);
   if (longest.size() + 2 != path.waypoints.size()) {
     throw std::invalid_argument("expected a longest blend for each waypoint between the ends");
   }
   const FloatEnvironmentGuard guard;
-  BlendPlanner planner(path, limits, longest, share);
+  BlendPlanner planner(path, limits, longest, share, deviation);
   std::vector<BlendPlan> plan = planner.run();
   detail::MotionWriter writer(path, true);
   BlendedMotion result;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <firstcontact/math/export.h>
@@ -15,6 +16,9 @@ namespace firstcontact {
 
 /// [-]  The greatest share of an edge that a blend may take; two blends leave a tenth between them.
 inline constexpr double kLongestBlend = 0.45;
+
+/// [rad or m]  A blend may leave the path by any distance.
+inline constexpr double kAnyDeviation = std::numeric_limits<double>::infinity();
 
 /// The blend about one waypoint: from the edge before it to the edge behind it.
 ///
@@ -46,13 +50,20 @@ struct BlendedMotion {
 /// faster. Geometry and limits do not depend on it. A joint without a jerk limit gets one on the
 /// edges: its acceleration builds up in 10 ms.
 ///
-/// @param longest  greatest blend at each waypoint between the ends, a share of both edges in [0,
-///                 kLongestBlend]; 0: the robot rests there
-/// @param share    share of the limits that may be used, in (0, 1]
+/// The distance of a blend from the edges is at most 3/16 |T (w - u) / 2| in each joint.
+/// Derivation: compare it with the motion that goes on at u to the waypoint, and then at w. The two
+/// differ by T (w - u) (s^3 - s^4 / 2) before the waypoint. That is greatest at s = 1/2. Behind the
+/// waypoint it is the same, by symmetry.
+///
+/// @param longest    greatest blend at each waypoint between the ends, a share of both edges in
+///                   [0, kLongestBlend]; 0: the robot rests there
+/// @param share      share of the limits that may be used, in (0, 1]
+/// @param deviation  [rad or m]  greatest distance of a blend from the path, in each joint; >= 0
 /// @throws std::invalid_argument as require_path(), require_limits()
 [[nodiscard]] FIRSTCONTACT_API BlendedMotion blend_motion(const WaypointPath& path,
                                                           const std::vector<RateLimits>& limits,
                                                           const std::vector<double>& longest,
-                                                          double share = 1.0);
+                                                          double share = 1.0,
+                                                          double deviation = kAnyDeviation);
 
 }  // namespace firstcontact

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,20 @@ inline constexpr std::array<const char*, 3> kRetimingModeWords{"stop", "blend", 
 /// The options of retiming.
 struct RetimingOptions {
   RetimingMode mode = RetimingMode::stop;
+  /// [rad or m]  Greatest distance of the motion from the path in each joint, in `blend` and
+  /// `time_optimal`; > 0.
+  ///
+  /// Of the two parts, waypoints that are left out have at most half, and blends the rest. Without
+  /// it blends may be as long as they gain time. Quintics of `time_optimal` leave this geometry by
+  /// a little more.
+  std::optional<double> blend_deviation = {};
   ProofOptions proof = {};
 };
+
+/// [rad or m]  Waypoints that an edge passes this closely, in every joint, may be left out.
+inline constexpr double kLeftOutWithin = 1e-3;
+/// [-]  The same, by the greatest way of any joint of the path: a short path keeps its form.
+inline constexpr double kLeftOutShare = 0.01;
 
 /// A timed motion and its proof.
 struct RetimedMotion {
@@ -39,15 +52,24 @@ struct RetimedMotion {
   ExecutedProof proof = {};    ///< Proof of `motion`; where it is not proven, it has the obstacle.
   double stop_duration = 0.0;  ///< [s]  Duration with rest at every waypoint.
   std::size_t blends = 0;      ///< Number of waypoints that are passed.
+  std::size_t left_out = 0;    ///< Number of waypoints that edges pass closely.
   std::size_t shortened = 0;   ///< Number of times that a blend was shortened because it was not
                                ///< free.
 };
 
 /// Times a path as fast as its mode allows, and proves what a controller makes of it.
 ///
+/// The straight edges of the path are proven first: where one is in contact, no mode has a motion.
 /// Where the rounding of numbers exceeds a limit, a little less of all limits is used. Where a
-/// blend is in contact or undecided, it is made shorter. The result is never slower than with rest
-/// at every waypoint. It is proven, or `proof` has the pair and the time of the obstacle.
+/// blend is in contact or undecided, it is made shorter. Where one breaks a limit, the robot rests
+/// at its waypoint. It rests, too, where the way turns back by more than 170 degrees. The result is
+/// never slower than with rest at every waypoint. It is proven, or `proof` has the pair and the
+/// time of the obstacle.
+///
+/// With `blend` and `time_optimal` a waypoint is left out where an edge passes it closely: within
+/// `kLeftOutWithin`, `kLeftOutShare` of the path's extent, and half of the `blend_deviation`. So a
+/// duration depends little on how finely a path is divided. Edges in place of others are proven
+/// free; where one is not, its waypoints come back.
 ///
 /// @param limits  one for each joint name of the path
 /// @throws std::invalid_argument  names the joint, the waypoint, or what else in the scene moves
