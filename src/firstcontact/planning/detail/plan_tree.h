@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/planning/detail/nearest_index.h>
 #include <firstcontact/planning/search_tree.h>
 
 namespace firstcontact::detail {
@@ -46,13 +47,17 @@ class PlanTree {
     parents_.push_back(parent);
     domains_.push_back(std::numeric_limits<double>::infinity());
     if (is_found) {
-      found_.push_back(places_.size() - 1);
+      show(places_.size() - 1);
     }
     return places_.size() - 1;
   }
 
   /// Lets nearest() return a place that it did not.
-  void show(std::size_t node) { found_.push_back(node); }
+  void show(std::size_t node) {
+    found_.add(node, [this](std::size_t a, std::size_t b) {
+      return space_->distance(places_[a], places_[b]);
+    });
+  }
 
   /// Marks a place as one from which to move in contact.
   void mark(std::size_t node) { marked_.push_back(node); }
@@ -68,17 +73,12 @@ class PlanTree {
   /// The marked places, in the order in which they were marked.
   [[nodiscard]] const std::vector<std::size_t>& marked() const { return marked_; }
 
+  /// The nearest place; of several the one that was shown first. The root where there is none.
   [[nodiscard]] std::size_t nearest(const Configuration& q) const {
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t k : found_) {
-      const double distance = space_->distance(places_[k], q);
-      if (distance < least) {
-        least = distance;
-        best = k;
-      }
-    }
-    return best;
+    return found_
+        .nearest([&](std::size_t node) { return space_->distance(places_[node], q); },
+                 [](std::size_t) { return true; })
+        .value_or(0);
   }
 
   /// The places from a node to its root.
@@ -100,7 +100,7 @@ class PlanTree {
   std::vector<Configuration> places_;
   std::vector<std::size_t> parents_;
   std::vector<double> domains_;
-  std::vector<std::size_t> found_;
+  NearestIndex found_;
   std::vector<std::size_t> marked_;
 };
 

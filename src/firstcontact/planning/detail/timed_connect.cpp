@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/planning/detail/nearest_index.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 
@@ -27,6 +28,9 @@ class TimedTree {
   std::size_t add(TimedPlace place, std::size_t parent) {
     places_.push_back(std::move(place));
     parents_.push_back(parent);
+    found_.add(places_.size() - 1, [this](std::size_t a, std::size_t b) {
+      return edges_.space().distance(places_[a].q, places_[b].q);
+    });
     return places_.size() - 1;
   }
 
@@ -45,19 +49,9 @@ class TimedTree {
 
   /// The nearest node in the space that is on the right side in time.
   [[nodiscard]] std::optional<std::size_t> nearest(const TimedPlace& to) const {
-    std::optional<std::size_t> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      if (!(time_from(places_[k], to) > 0.0)) {
-        continue;
-      }
-      const double way = edges_.space().distance(places_[k].q, to.q);
-      if (way < least) {
-        least = way;
-        best = k;
-      }
-    }
-    return best;
+    return found_.nearest(
+        [&](std::size_t node) { return edges_.space().distance(places_[node].q, to.q); },
+        [&](std::size_t node) { return time_from(places_[node], to) > 0.0; });
   }
 
   /// The node with the least time to a place that one edge at the allowed speeds reaches.
@@ -98,6 +92,7 @@ class TimedTree {
   bool is_forward_;
   std::vector<TimedPlace> places_;
   std::vector<std::size_t> parents_;
+  NearestIndex found_;
 };
 
 class TimedConnect {
