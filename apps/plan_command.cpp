@@ -399,7 +399,8 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
              "[m] A pair that is nearer than margin + tolerance may count as blocked");
   command
       ->add_option("--shortcuts", arguments->shortcuts,
-                   "Number of attempts to shorten the path; 0 keeps the path as found")
+                   "Number of attempts to shorten the path; half as many follow while they help. 0 "
+                   "keeps the path as found")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}));
   command->add_flag("--approximate", arguments->approximate,
                     "Where no path is found: gives one that ends as near to a goal as was reached");

@@ -69,6 +69,20 @@ RobotScene boxed_in() {
   return scene;
 }
 
+// Where more tries help, the default takes more of them.
+TEST(PlanPath, ShortcutsGoOnWhileTheyHelp) {
+  const PlanScene scene = with_gantry(boxed_in());
+  const Configuration inside = {0.0, 0.1, -0.1};
+  double by_default = 0.0;
+  double at_most = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    by_default += plan_path(scene, kBehind, {inside}, {.seed = seed}).cost;
+    at_most += plan_path(scene, kBehind, {inside}, {.seed = seed, .shortcuts = 5000}).cost;
+  }
+  RecordProperty("ratio", std::to_string(by_default / at_most));
+  EXPECT_LT(by_default, 1.08 * at_most);
+}
+
 TEST(PlanPath, FindsItsWayThroughAWindow) {
   const PlanScene scene = with_gantry(thin_wall(0.4));
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(20, 3)); ++seed) {

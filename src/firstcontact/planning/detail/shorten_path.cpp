@@ -9,29 +9,49 @@ namespace {
 
 constexpr double kWorthwhile = 1e-4;  // [-]  Part of the cost of a stretch that a replacement is to
                                       // save.
-/// Tries in a row without gain, also as a share of all, after which the path counts as short.
+/// Tries in a row without gain, also as a share of a round, after which a round ends.
 constexpr std::size_t kLongestWait = 25;
 constexpr std::size_t kTriesOfWait = 4;
+/// [-]  A round that saves a smaller part of the cost is the last one.
+constexpr double kGainOfRound = 0.02;
+/// Tries of the first round, by those of each further one.
+constexpr std::size_t kShareOfRound = 2;
 
 class Shortcuts {
  public:
   Shortcuts(PlanWork& work, std::vector<Configuration>& path, std::size_t tries)
       : work_(work),
         path_(path),
-        left_(tries),
+        tries_(tries),
         longest_wait_(std::max(kLongestWait, tries / kTriesOfWait)) {}
 
   void run(RandomNumbers& random) {
     skip_places();
+    double before = cost(path_);
+    const std::size_t further = std::max<std::size_t>(1, tries_ / kShareOfRound);
+    while (path_.size() > 2) {
+      run_round(random);
+      skip_places();
+      const double after = cost(path_);
+      if (work_.is_over() || !(after < (1.0 - kGainOfRound) * before)) {
+        break;
+      }
+      before = after;
+      tries_ = further;
+    }
+  }
+
+ private:
+  /// Tries shortcuts, until there are no more tries or too many in a row did not help.
+  void run_round(RandomNumbers& random) {
+    left_ = tries_;
     std::size_t waited = 0;
     while (path_.size() > 2 && may_try() && waited < longest_wait_) {
       const bool in_one_coordinate = !work_.space().is_body() && random.below(3) == 0;
       waited = (in_one_coordinate ? cut_coordinate(random) : cut(random)) ? 0 : waited + 1;
     }
-    skip_places();
   }
 
- private:
   /// A place on an edge of the path, and the number of that edge.
   struct OnPath {
     std::size_t edge = 0;
@@ -164,7 +184,8 @@ class Shortcuts {
 
   PlanWork& work_;
   std::vector<Configuration>& path_;
-  std::size_t left_;
+  std::size_t tries_;
+  std::size_t left_ = 0;
   std::size_t longest_wait_;
 };
 
