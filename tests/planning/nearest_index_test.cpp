@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,8 +16,8 @@
 
 #include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/math/detail/nearest_index.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/nearest_index.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 #include <firstcontact/robot/coordinate_path.h>
 
@@ -119,7 +120,17 @@ TEST(NearestIndex, TakesTheFirstOfEqualDistances) {
         best = i;
       }
     }
-    ASSERT_EQ(index.nearest([&](std::size_t i) { return distance(points[i], q); }, counts), best);
+    const auto to = [&](std::size_t i) { return distance(points[i], q); };
+    ASSERT_EQ(index.nearest(to, counts), best);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (counts(i)) {
+        all.push_back(i);
+      }
+    }
+    std::ranges::stable_sort(all, {}, to);
+    all.resize(std::min<std::size_t>(all.size(), 7));
+    ASSERT_EQ(index.nearest_few(7, to, counts), all);
   }
 }
 

@@ -69,6 +69,23 @@ RobotScene boxed_in() {
   return scene;
 }
 
+// Two windows, and corners between them: a path of random places is seldom short.
+TEST(PlanPath, LazyPrmIsNoLongerThanRrtConnect) {
+  const PlanScene scene = with_gantry(boxed_in());
+  const Configuration inside = {0.0, 0.1, -0.1};
+  double connected = 0.0;
+  double lazy = 0.0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(10, 3)); ++seed) {
+    const PlanResult first = plan_path(scene, kBehind, {inside}, {.seed = seed});
+    const PlanResult result =
+        plan_path(scene, kBehind, {inside}, {.planner = Planner::lazy_prm_star, .seed = seed});
+    expect_proven(scene, result, kBehind, inside);
+    connected += first.cost;
+    lazy += result.cost;
+  }
+  EXPECT_LT(lazy, 1.0001 * connected);
+}
+
 // Where more tries help, the default takes more of them.
 TEST(PlanPath, ShortcutsGoOnWhileTheyHelp) {
   const PlanScene scene = with_gantry(boxed_in());

@@ -256,11 +256,11 @@ class PlanSearch {
     if (std::find(targets_.begin(), targets_.end(), start) != targets_.end()) {
       return {{start}, true};
     }
-    if (options_.planner == Planner::lazy_prm_star) {
-      return detail::lazy_prm_star(work_, start, targets_, random);
-    }
     const double range =
         options_.range > 0.0 ? options_.range : detail::default_range(scene_.space);
+    if (options_.planner == Planner::lazy_prm_star) {
+      return detail::lazy_prm_star(work_, start, targets_, range, random);
+    }
     return detail::rrt_connect(work_, start, targets_, range, random);
   }
 

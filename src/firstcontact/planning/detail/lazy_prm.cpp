@@ -6,237 +6,214 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <queue>
 #include <utility>
+
+#include <firstcontact/math/detail/nearest_index.h>
+#include <firstcontact/planning/detail/lazy_graph.h>
+#include <firstcontact/planning/detail/rrt_connect.h>
+#include <firstcontact/planning/detail/shorten_path.h>
 
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kFirstBatch = 64;  // Number of places; each further batch is half of all so
-                                         // far.
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kFirstBatch = 64;      // Number of places; each further batch is half of all
+                                             // so far.
+constexpr std::size_t kFewestPlaces = 1000;  // Below this number the graph is not dense enough.
+constexpr double kWorthwhile = 0.01;         // [-]  Part of the cost that is worth more work.
+constexpr std::size_t kTriesOfSample = 20'000;
+constexpr std::size_t kLongestWait = 4;  // Paths of RRT-Connect in a row without a gain.
 
 class Roadmap {
  public:
   Roadmap(PlanWork& work, const Configuration& start, const std::vector<Configuration>& goals)
-      : work_(work), goal_count_(goals.size()) {
-    add(start);
+      : work_(work), goals_(goals) {
+    add(start, false);
     for (const Configuration& goal : goals) {
-      add(goal);
+      add(goal, true);
     }
   }
 
-  FoundPath run(RandomNumbers& random) {
-    std::size_t enough = std::numeric_limits<std::size_t>::max();
-    while (!work_.is_over() && places_.size() < enough) {
-      ++work_.counts().iterations;
-      const bool had_path = best_.has_value();
-      search();
-      if (best_ && !had_path) {
-        enough = 2 * places_.size();
-      }
-      work_.report(places_.size(), best_ ? std::optional(best_->cost) : std::nullopt);
-      grow(random);
-    }
-    search();
-    work_.counts().nodes = places_.size();
-    FoundPath found = best_ ? FoundPath{best_->places, true} : nearest();
-    if (work_.options().keep_trees) {
-      found.trees.push_back(take_roadmap());
-    }
-    return found;
-  }
-
- private:
-  enum class Known { nothing, free, blocked };
-  struct Edge {
-    std::size_t a = 0;
-    std::size_t b = 0;
-    double length = 0.0;
-    Known known = Known::nothing;
-  };
-  struct Best {
-    double cost = 0.0;
-    std::vector<Configuration> places;
-  };
-
-  [[nodiscard]] double length(std::size_t a, std::size_t b) const {
-    return work_.space().distance(places_[a], places_[b]);
-  }
-
-  void add(Configuration q) {
-    places_.push_back(std::move(q));
-    edges_of_.emplace_back();
-    const std::size_t added = places_.size() - 1;
-    const double d = static_cast<double>(work_.space().is_body() ? 6 : work_.space().size());
-    const double n = static_cast<double>(places_.size());
-    const auto most =
-        static_cast<std::size_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * std::log(n + 1.0)));
-    std::vector<std::pair<double, std::size_t>> near;
-    for (std::size_t k = 0; k < added; ++k) {
-      near.emplace_back(length(k, added), k);
-    }
-    const std::size_t count = std::min(most, near.size());
-    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
-    near.resize(count);
-    for (const auto& [distance, k] : near) {
-      edges_of_[k].push_back(edges_.size());
-      edges_of_[added].push_back(edges_.size());
-      edges_.push_back({k, added, distance});
+  /// Takes a proven path to a goal into the graph.
+  void take(const std::vector<Configuration>& path) {
+    std::size_t last = 0;
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      const auto goal = std::ranges::find(goals_, path[k]);
+      const bool is_end = k + 1 == path.size() && goal != goals_.end();
+      const std::size_t node =
+          is_end ? 1 + static_cast<std::size_t>(goal - goals_.begin()) : add(path[k], false);
+      graph_.add_edge(last, node, length(last, node), true);
+      last = node;
     }
   }
 
-  void grow(RandomNumbers& random) {
-    const std::size_t end = places_.size() + std::max(kFirstBatch, places_.size() / 2);
-    while (places_.size() < end && !work_.is_over()) {
-      Configuration q = work_.space().sample(random);
-      if (work_.is_free(q)) {
-        add(std::move(q));
-      }
-    }
-  }
-
-  [[nodiscard]] bool is_goal(std::size_t node) const { return node >= 1 && node <= goal_count_; }
-
-  [[nodiscard]] double to_goal(std::size_t node) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t goal = 1; goal <= goal_count_; ++goal) {
-      least = std::min(least, length(node, goal));
-    }
-    return least;
-  }
-
-  /// Checks the edges of the shortest path that is left until one is proven, or none is shorter.
-  void search() {
+  /// Grows the graph until its shortest path stays, and returns the path.
+  std::vector<Configuration> run(RandomNumbers& random) {
+    double known = std::numeric_limits<double>::infinity();
+    std::size_t at = 0;  // Number of places at the last worthwhile gain.
     while (!work_.is_over()) {
-      const std::vector<std::size_t> path = shortest_path(false);
-      if (path.empty()) {
-        return;
+      ++work_.counts().iterations;
+      search();
+      if (cost_ < (1.0 - kWorthwhile) * known) {
+        known = cost_;
+        at = places_.size();
       }
-      if (prove(path)) {
-        Best found;
-        std::size_t node = 0;
-        found.places.push_back(places_[node]);
-        for (const std::size_t edge : path) {
-          node = other_end(edge, node);
-          found.places.push_back(places_[node]);
-          found.cost += edges_[edge].length;
-        }
-        if (!best_ || found.cost < best_->cost) {
-          best_ = std::move(found);
-        }
-        return;
+      work_.report(places_.size(), cost_);
+      if (places_.size() >= std::max(kFewestPlaces, 2 * at) || !grow(random)) {
+        break;
       }
     }
-  }
-
-  bool prove(const std::vector<std::size_t>& path) {
-    for (const std::size_t index : path) {
-      Edge& edge = edges_[index];
-      if (edge.known == Known::nothing) {
-        edge.known = work_.is_free(places_[edge.a], places_[edge.b]) ? Known::free : Known::blocked;
-      }
-      if (edge.known == Known::blocked) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  [[nodiscard]] std::size_t other_end(std::size_t edge, std::size_t node) const {
-    return edges_[edge].a == node ? edges_[edge].b : edges_[edge].a;
-  }
-
-  /// The edges from the start to a goal by A*; empty where there is no path.
-  ///
-  /// @param proven_only  uses proven edges alone, and ends at the place nearest to a goal
-  [[nodiscard]] std::vector<std::size_t> shortest_path(bool proven_only) const {
-    std::vector<double> cost(places_.size(), std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> by(places_.size(), kNone);
-    std::vector<bool> done(places_.size(), false);
-    std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>,
-                        std::greater<>>
-        open;
-    cost[0] = 0.0;
-    open.emplace(to_goal(0), 0);
-    std::size_t nearest = 0;
-    double least = to_goal(0);
-    while (!open.empty()) {
-      const std::size_t node = open.top().second;
-      open.pop();
-      if (done[node]) {
-        continue;
-      }
-      done[node] = true;
-      const double left = to_goal(node);
-      if (left < least) {
-        least = left;
-        nearest = node;
-      }
-      if (is_goal(node)) {
-        return edges_to(node, by);
-      }
-      for (const std::size_t index : edges_of_[node]) {
-        const Edge& edge = edges_[index];
-        if (edge.known == Known::blocked || (proven_only && edge.known != Known::free)) {
-          continue;
-        }
-        const std::size_t next = other_end(index, node);
-        if (cost[node] + edge.length < cost[next]) {
-          cost[next] = cost[node] + edge.length;
-          by[next] = index;
-          open.emplace(cost[next] + to_goal(next), next);
-        }
-      }
-    }
-    return proven_only ? edges_to(nearest, by) : std::vector<std::size_t>();
-  }
-
-  [[nodiscard]] std::vector<std::size_t> edges_to(std::size_t node,
-                                                  const std::vector<std::size_t>& by) const {
-    std::vector<std::size_t> edges;
-    while (node != 0) {
-      edges.push_back(by[node]);
-      node = other_end(by[node], node);
-    }
-    std::reverse(edges.begin(), edges.end());
-    return edges;
-  }
-
-  [[nodiscard]] FoundPath nearest() const {
-    FoundPath found{{places_[0]}, false};
-    std::size_t node = 0;
-    for (const std::size_t edge : shortest_path(true)) {
-      node = other_end(edge, node);
-      found.places.push_back(places_[node]);
-    }
-    return found;
+    work_.counts().nodes += places_.size();
+    return best_;
   }
 
   /// Gives the places away, with the edges that are proven.
-  [[nodiscard]] SearchTree take_roadmap() {
+  [[nodiscard]] SearchTree take_places() {
     SearchTree roadmap{.kind = SearchTreeKind::roadmap, .places = std::move(places_)};
-    for (const Edge& edge : edges_) {
-      if (edge.known == Known::free) {
+    for (std::size_t number = 0; number < graph_.edge_count(); ++number) {
+      const LazyGraph::Edge& edge = graph_.edge(number);
+      if (edge.is_known && !edge.is_blocked) {
         roadmap.edges.push_back({edge.a, edge.b});
       }
     }
     return roadmap;
   }
 
+ private:
+  [[nodiscard]] double length(std::size_t a, std::size_t b) const {
+    return work_.space().distance(places_[a], places_[b]);
+  }
+
+  [[nodiscard]] double to_goal(const Configuration& q) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Configuration& goal : goals_) {
+      least = std::min(least, work_.space().distance(q, goal));
+    }
+    return least;
+  }
+
+  /// Adds a place with edges to its nearest ones.
+  std::size_t add(const Configuration& q, bool is_goal) {
+    const std::size_t added = graph_.add_node(is_goal ? 0.0 : to_goal(q), is_goal);
+    places_.push_back(q);
+    const double d = static_cast<double>(work_.space().is_body() ? 6 : work_.space().size());
+    const double n = static_cast<double>(places_.size());
+    const auto most =
+        static_cast<std::size_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * std::log(n + 1.0)));
+    const auto near = index_.nearest_few(
+        most, [&](std::size_t node) { return length(node, added); },
+        [](std::size_t) { return true; });
+    for (const std::size_t node : near) {
+      graph_.add_edge(node, added, length(node, added), false);
+    }
+    index_.add(added, [&](std::size_t a, std::size_t b) { return length(a, b); });
+    return added;
+  }
+
+  /// Adds a batch of places that could be on a shorter path; false where samples have none.
+  bool grow(RandomNumbers& random) {
+    const std::size_t end = places_.size() + std::max(kFirstBatch, places_.size() / 2);
+    std::size_t tries = 0;
+    while (places_.size() < end && tries < kTriesOfSample && !work_.is_over()) {
+      ++tries;
+      const Configuration q = work_.space().sample(random);
+      if (work_.space().distance(places_[0], q) + to_goal(q) < cost_ && work_.is_free(q)) {
+        add(q, false);
+        tries = 0;
+      }
+    }
+    return tries < kTriesOfSample;
+  }
+
+  /// Checks the edges of the shortest path that is left until one is proven.
+  void search() {
+    while (!work_.is_over()) {
+      const std::vector<std::size_t> path = graph_.shortest_path();
+      if (path.empty()) {
+        return;
+      }
+      if (!prove(path)) {
+        continue;
+      }
+      std::vector<Configuration> places{places_[0]};
+      double cost = 0.0;
+      std::size_t node = 0;
+      for (const std::size_t edge : path) {
+        node = graph_.other_end(edge, node);
+        places.push_back(places_[node]);
+        cost += graph_.edge(edge).length;
+      }
+      if (cost < cost_) {
+        cost_ = cost;
+        best_ = std::move(places);
+      }
+      return;
+    }
+  }
+
+  bool prove(const std::vector<std::size_t>& path) {
+    for (const std::size_t number : path) {
+      const LazyGraph::Edge& edge = graph_.edge(number);
+      if (edge.is_known) {
+        continue;
+      }
+      if (work_.is_over()) {
+        return false;
+      }
+      if (!work_.is_free(places_[edge.a], places_[edge.b])) {
+        graph_.block(number);
+        return false;
+      }
+      graph_.set_known(number);
+    }
+    return true;
+  }
+
   PlanWork& work_;
-  std::size_t goal_count_;
-  std::vector<Configuration> places_;  // The start, the goals, then samples.
-  std::vector<Edge> edges_;
-  std::vector<std::vector<std::size_t>> edges_of_;
-  std::optional<Best> best_;
+  const std::vector<Configuration>& goals_;
+  std::vector<Configuration> places_;  // The start, the goals, then others.
+  NearestIndex index_;
+  LazyGraph graph_;
+  std::vector<Configuration> best_;
+  double cost_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
 
 FoundPath lazy_prm_star(PlanWork& work, const Configuration& start,
-                        const std::vector<Configuration>& goals, RandomNumbers& random) {
-  return Roadmap(work, start, goals).run(random);
+                        const std::vector<Configuration>& goals, double range,
+                        RandomNumbers& random) {
+  FoundPath best{{start}, false};
+  Roadmap roadmap(work, start, goals);
+  std::size_t waited = 0;  // Paths in a row that are not shorter.
+  while (waited < kLongestWait && !work.is_over()) {
+    FoundPath next = rrt_connect(work, start, goals, range, random);
+    if (!next.reaches_goal) {
+      best = best.reaches_goal ? std::move(best) : std::move(next);
+      break;
+    }
+    shorten_path(work, next.places, work.options().shortcuts, random);
+    roadmap.take(next.places);
+    const double cost = cost_of(work.space(), next.places);
+    const double known = best.reaches_goal ? cost_of(work.space(), best.places)
+                                           : std::numeric_limits<double>::infinity();
+    waited = cost < (1.0 - kWorthwhile) * known ? 0 : waited + 1;
+    if (cost < known) {
+      best = std::move(next);
+    }
+    work.report(work.counts().nodes, std::min(cost, known));
+  }
+  if (!best.reaches_goal) {
+    return best;
+  }
+  std::vector<Configuration> shorter = roadmap.run(random);
+  if (!shorter.empty() && cost_of(work.space(), shorter) < cost_of(work.space(), best.places)) {
+    best.places = std::move(shorter);
+  }
+  best.trees.clear();  // The roadmap stands in their place.
+  if (work.options().keep_trees) {
+    best.trees.push_back(roadmap.take_places());
+  }
+  return best;
 }
 
 }  // namespace firstcontact::detail

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
-#include <firstcontact/planning/detail/nearest_index.h>
+#include <firstcontact/math/detail/nearest_index.h>
 #include <firstcontact/planning/search_tree.h>
 
 namespace firstcontact::detail {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include <firstcontact/planning/detail/nearest_index.h>
+#include <firstcontact/math/detail/nearest_index.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 

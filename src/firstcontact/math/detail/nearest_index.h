@@ -51,14 +51,26 @@ class NearestIndex {
   /// @param accepts  whether an item counts
   template <class To, class Accepts>
   [[nodiscard]] std::optional<std::size_t> nearest(const To& to, const Accepts& accepts) const {
-    Search<To, Accepts> search{to, accepts};
+    const std::vector<std::size_t> found = nearest_few(1, to, accepts);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+  }
+
+  /// The items with the least distances, the nearest one first; at most `most` > 0 of them.
+  template <class To, class Accepts>
+  [[nodiscard]] std::vector<std::size_t> nearest_few(std::size_t most, const To& to,
+                                                     const Accepts& accepts) const {
+    Search<To, Accepts> search{to, accepts, most};
     for (const Item& item : waiting_) {
       search.take(item);
     }
     for (const Tree& tree : trees_) {
       search.visit(tree, {0, tree.items.size()});
     }
-    return search.best ? std::optional(search.best->number) : std::nullopt;
+    std::vector<std::size_t> numbers;
+    for (const Placed& placed : search.few) {
+      numbers.push_back(placed.second.number);
+    }
+    return numbers;
   }
 
  private:
@@ -70,6 +82,11 @@ class NearestIndex {
     std::size_t number = 0;
     std::size_t order = 0;
   };
+  /// An item and its distance.
+  using Placed = std::pair<double, Item>;
+  static bool is_nearer(const Placed& a, const Placed& b) {
+    return a.first < b.first || (a.first == b.first && a.second.order < b.second.order);
+  }
   /// A range of the items of a tree. Its first one is the vantage point, unless it is a leaf.
   struct Range {
     std::size_t begin = 0;
@@ -113,10 +130,6 @@ class NearestIndex {
     }
 
     void divide(const Range& range) {
-      using Placed = std::pair<double, Item>;
-      const auto is_nearer = [](const Placed& a, const Placed& b) {
-        return a.first < b.first || (a.first == b.first && a.second.order < b.second.order);
-      };
       const auto from = [&](const Item& vantage) {
         std::vector<Placed> placed;
         for (std::size_t k = range.begin; k < range.end; ++k) {
@@ -152,18 +165,21 @@ class NearestIndex {
   struct Search {
     const To& to;
     const Accepts& accepts;
-    double least = kNone;
-    std::optional<Item> best = {};
+    std::size_t most = 1;
+    std::vector<Placed> few = {};  // In order.
+    double least = kNone;          // Farther items do not count.
 
     double take(const Item& item) {
-      const double distance = to(item.number);
-      const bool is_better =
-          distance < least || (distance == least && best && item.order < best->order);
-      if (is_better && accepts(item.number)) {
-        least = distance;
-        best = item;
+      const Placed placed{to(item.number), item};
+      const bool is_full = few.size() == most;
+      if ((!is_full || is_nearer(placed, few.back())) && accepts(item.number)) {
+        if (is_full) {
+          few.pop_back();
+        }
+        few.insert(std::upper_bound(few.begin(), few.end(), placed, is_nearer), placed);
+        least = few.size() == most ? few.back().first : kNone;
       }
-      return distance;
+      return placed.first;
     }
 
     /// A lower bound of the distance of all items in a shell, by the triangle inequality.
