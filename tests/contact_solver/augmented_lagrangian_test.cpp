@@ -76,6 +76,30 @@ TEST(AugmentedLagrangian, ACubeIsSqueezedOutHoweverFast) {
   }
 }
 
+/// An arm of 1 kg m^2 at rest, 0.5 m from a wall to its joint, and a torque that presses it there.
+ContactProblem pressed_arm(double impulse) {
+  ContactProblem problem;
+  problem.mechanisms.push_back({Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Zero(1)});
+  problem.bodies.resize(2);
+  MechanismLink link{0, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 1)};
+  link.J(5, 0) = 1.0;  // It turns about z.
+  problem.bodies[1].link = link;
+  problem.contacts.push_back(
+      {.bodies = {0, 1}, .arm_B = {0.5, 0.0, 0.0}, .frame = frame_of(Vector3d::UnitY())});
+  problem.drives.push_back({.least = impulse, .greatest = impulse});
+  return problem;
+}
+
+TEST(AugmentedLagrangian, ATorqueAtRestPressesWithAllOfItself) {
+  for (const double impulse : {-1e-6, -0.05, -3.0}) {
+    const ContactProblem problem = pressed_arm(impulse);
+    const ContactSolution solution = project_on_contacts(problem, {.tolerance = 1e-9});
+    EXPECT_LE(solution.residual, 1e-9) << impulse;
+    EXPECT_NEAR(solution.impulses[0][0], -2.0 * impulse, 1e-8) << impulse;
+    EXPECT_NEAR(solution.mechanisms[0][0], 0.0, 4e-9) << impulse;
+  }
+}
+
 /// A heap with velocities and impulses that meet all laws, in which some contacts stick, some slide
 /// and some open. Free velocities are what the impulses lead to these from.
 class SolvedHeap {

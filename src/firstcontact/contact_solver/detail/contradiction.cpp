@@ -14,14 +14,29 @@ namespace {
 /// [-]  A wedge that closes squeezes a body out faster than its rows move, but not by this factor.
 constexpr double kOutOfReach = 30.0;
 
-/// [m/s]  The greatest speed that a row has or wants.
+/// The impulses that drives and ties cannot do without, such as that of a torque.
+Impulses least_impulses(const ContactRows& rows) {
+  Impulses least;
+  least.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
+  for (const DriveRow& row : rows.drives) {
+    least.drives.push_back(std::clamp(0.0, row.least, row.greatest));
+  }
+  return least;
+}
+
+/// [m/s]  The greatest speed that a row has or wants. At rest a torque alone gives it one.
 double fastest(const ContactRows& rows) {
+  const Impulses least = least_impulses(rows);
+  const Eigen::VectorXd driven = velocities_after(rows, least);
   double speed = 0.0;
   for (const ContactRow& row : rows.contacts) {
-    speed = std::max(speed, row.excess_velocity(rows.free_velocities).norm());
+    speed = std::max({speed, row.excess_velocity(rows.free_velocities).norm(),
+                      row.excess_velocity(driven).norm()});
   }
-  for (const DriveRow& row : rows.drives) {
-    speed = std::max(speed, std::abs(row.excess_velocity(0.0, rows.free_velocities)));
+  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
+    const DriveRow& row = rows.drives[k];
+    speed = std::max({speed, std::abs(row.excess_velocity(0.0, rows.free_velocities)),
+                      std::abs(row.excess_velocity(least.drives[k], driven))});
   }
   return speed;
 }

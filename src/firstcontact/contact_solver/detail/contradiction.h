@@ -30,7 +30,8 @@ class Contradiction {
                 const MassWhitenedCoordinates& coordinates);
 
   /// Whether velocities that meet the laws are out of reach. That is thirty times as far as if all
-  /// bodies took the greatest speed that a contact has or wants.
+  /// bodies took the greatest speed that a contact has or wants. Torques count: they give contacts
+  /// a speed also where all is at rest.
   ///
   /// @param impulses  in the cones
   /// @param bias      [m/s]  mu |u_t| of each contact; if a contact slid faster, its law would be
