@@ -43,6 +43,18 @@ TEST(Stack, OfManyBlocksStandsAsFewDo) {
   }
 }
 
+// Twelve cylinders have more than 1,000 contacts, on fewer than 20 bodies.
+TEST(Stack, OfCylindersStandsAsOneOfBlocksDoes) {
+  std::string bodies = kFloor;
+  for (int k = 0; k < 12; ++k) {
+    bodies += "," + body("cylinder " + std::to_string(k),
+                         R"({"cylinder": {"radius": 0.1, "length": 0.2}})",
+                         numbers({0.0, 0.0, 0.1 + kGap + k * (0.2 + kGap)}), R"(, "dynamics": {})");
+  }
+  Simulator s = simulator(bodies, settings(0.01, 0.5, kGap));
+  expect_rest(drift(s, 0.5));
+}
+
 TEST(Stack, OfHeavyBlocksOnLightOnesStands) {
   for (const std::vector<double>& densities : std::vector<std::vector<double>>{
            {1.0, 1e7}, {1.0, 1e8}, {1.0, 1e2, 1e4, 1e6}, {1.0, 1e8, 1.0, 1e8}, {1e8, 1.0}}) {

@@ -339,20 +339,22 @@ bool is_heap(const IslandState& state, std::size_t contacts) {
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  const double exact = exact_tolerance(state);
-  if (has_many(state, problem.contacts.size())) {
-    if (stands(state)) {
-      return {.tolerance = exact};
-    }
-    return {.tolerance = of_gravity(state, kHeapTolerance),
-            .enough = of_gravity(state, kHeapEnough),
-            .sweeps = kHeapSweeps,
-            .rounds = kRoundsOfMany};
+  const bool is_of_many = has_many(state, problem.contacts.size());
+  ProjectionOptions options{.tolerance = exact_tolerance(state)};
+  if (!is_of_many) {
+    options.rounds = kRoundsOfMany;
   }
-  if (problem.contacts.size() >= kManyContactsOfIsland) {
-    return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
+  const bool is_large = is_of_many || problem.contacts.size() >= kManyContactsOfIsland;
+  if (!is_large || stands(state)) {
+    return options;
   }
-  return {.tolerance = exact, .rounds = kRoundsOfMany};
+  options.tolerance = of_gravity(state, kHeapTolerance);
+  options.rounds = kRoundsOfMany;
+  if (is_of_many) {
+    options.enough = of_gravity(state, kHeapEnough);
+    options.sweeps = kHeapSweeps;
+  }
+  return options;
 }
 
 /// Chooses the options of a plan. Free bodies that meet within a plan need not be solved as exactly

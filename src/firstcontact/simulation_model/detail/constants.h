@@ -309,7 +309,8 @@ inline constexpr std::size_t kHeapBodies = 20;
 /// adds in a step. It is then solved as exactly as few bodies, however large it is, or it would
 /// creep.
 inline constexpr double kStandsOfGravity = 0.3;
-/// [contacts]  A problem with so many is solved as a heap's, whatever its bodies.
+/// [contacts]  A problem with so many is solved to a heap's residual, whatever its bodies, unless
+/// they stand.
 inline constexpr std::size_t kManyContactsOfIsland = 1000;
 /// [-]  Residual that sweeps of a heap may leave, after at most so many sweeps. Where bodies then
 /// come too near, the next plan holds them.
