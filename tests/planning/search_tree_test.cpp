@@ -92,7 +92,9 @@ TEST(SearchTree, HoldsTheProvenEdgesOfARoadmap) {
   ASSERT_EQ(result.verdict, PlanVerdict::proven);
   ASSERT_EQ(result.trees.size(), 1u);
   EXPECT_EQ(result.trees[0].kind, SearchTreeKind::roadmap);
-  EXPECT_EQ(places_in(result.trees), result.statistics.nodes);
+  // Those of the trees that led to its first paths count, too.
+  EXPECT_LT(places_in(result.trees), result.statistics.nodes);
+  EXPECT_GE(places_in(result.trees), 1000u);
   EXPECT_GE(result.trees[0].edges.size(), result.path.size() - 1);
   expect_free_edges(scene, result.trees[0]);
   EXPECT_TRUE(holds_all(result.trees, result.path));
