@@ -124,6 +124,7 @@ class HapticsRun {
           named_.choices[k], simulated_hand(arguments_, setup_.scene.tools[k],
                                             setup_.options.mappings[k], named_.duration, k)));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
+      setup_.options.mappings[k].device = devices_[k]->capabilities();
       require_buttons(k);
       require_grips(k);
       pointers_.push_back(devices_[k].get());
