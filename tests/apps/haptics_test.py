@@ -122,9 +122,9 @@ class Haptics(tool_test.ToolTest):
         scene["haptics"]["tools"][0]["grips"] = [grip]
         self.file("scene.json", scene)
 
-    def glove(self, grips, columns=",grip0"):
+    def glove(self, grips, columns=",grip0", head=()):
         """A recording of a hand that goes down by 1 cm, then closes."""
-        lines = ["# firstcontact recording: 1", "time_ns,sequence,x,y,z,qw,qx,qy,qz" + columns]
+        lines = ["# firstcontact recording: 1", *head, "time_ns,sequence,x,y,z,qw,qx,qy,qz" + columns]
         for k, grip in enumerate(grips):
             lines.append(f"{k * 1000000},{k + 1},0,0,{max(-0.015, -1e-4 * k)},1,0,0,0{grip}")
         self.file("glove.csv", "\n".join(lines) + "\n")
@@ -132,7 +132,8 @@ class Haptics(tool_test.ToolTest):
     def test_closes_jaws_on_a_cube(self):
         self.jaws()
         # 35 mm in 6 ms: 5.8 m/s.
-        self.glove([f",{min(1, max(0, (k - 300) / 6))}" for k in range(600)])
+        closing = [f",{min(1, max(0, (k - 300) / 6))}" for k in range(600)]
+        self.glove(closing, head=["# max_grip_effort: 2"])
         result = self.haptics("--device", "glove.csv", "--ticks", "ticks.csv", "--cycles", "cycles.csv")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("work from open to closed", result.stdout)

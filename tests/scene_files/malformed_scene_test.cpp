@@ -282,8 +282,10 @@ TEST(MalformedShape, SaysWhatIsWrong) {
       {shaped(R"({"heightmap": {"cell": [1, 1], "heights": [[0, 0], [0]]}})"),
        "s:1: bodies[0].shape.heightmap.heights[1]: expected a row of two heights or more, as many "
        "as in the first, got an array of 1"},
-      {shaped(R"({"box": {"size": [1, 1, 1]}, "radius": 0.1})"),
-       "s:1: bodies[0].shape.radius: expected no \"radius\" beside \"box\""},
+      {shaped(R"({"cylinder": {"radius": 1, "length": 1}, "radius": 0.1})"),
+       "s:1: bodies[0].shape.radius: expected no \"radius\" beside \"cylinder\""},
+      {shaped(R"({"box": {"size": [1, 1, 1]}, "radius": -0.1})"),
+       "s:1: bodies[0].shape.radius: expected a number >= 0, got -0.1"},
       {shaped(R"({"mesh": "a.obj", "solid": 1})"),
        "s:1: bodies[0].shape.solid: expected true or false, got 1"},
       {shaped(R"({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]],
