@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -194,6 +195,115 @@ TEST_F(RobotContact, AnArmSlidesAlongAFloorAsLagrangeHasIt) {
       const double error =
           (Vector2d(last.positions[0], last.positions[1]) - right.q).cwiseAbs().maxCoeff();
       EXPECT_LT(error, 1.0 * step * step + slide.noise) << slide.name << " " << step;
+    }
+  }
+}
+
+// --- Robots whose links do not turn --------------------------------------------------------------
+
+std::string box_at(const std::string& place, const std::string& size) {
+  return R"(<collision><origin xyz=")" + place + R"("/><geometry><box size=")" + size +
+         R"("/></geometry></collision>)";
+}
+
+/// [N]  The upward force of contacts in a step.
+double upward_force(const RunStep& step) {
+  double sum = 0.0;
+  for (const RunContact& contact : step.contacts) {
+    sum += std::abs(contact.impulse.z());
+  }
+  return sum / step.lasted;
+}
+
+/// A floating robot that slides along a floor.
+struct Slider {
+  std::string name;
+  std::string more = "";      // Further links and joints.
+  std::string dynamics = "";  // Keys, with a comma before.
+  double mass = 2.0;          // [kg]
+};
+
+/// A block of 2 kg, alone or with an arm of 1 kg.
+std::vector<Slider> sliders() {
+  const std::string arm = test::massive("arm", 1.0, "0 0 0.1", {0.01, 0.02, 0.01}) +
+                          test::connected("a", "continuous", "block", "arm", "0 1 0", "0 0 0.3");
+  return {{.name = "one link"},
+          {.name = "an arm that a motor holds",
+           .more = arm,
+           .dynamics = R"(, "motors": {"a": {"position": 0}})",
+           .mass = 3.0},
+          {.name = "an arm that a spring holds",
+           .more = arm,
+           .dynamics = R"(, "motors": {"a": {"position": 0, "stiffness": 500, "damping": 20}})",
+           .mass = 3.0}};
+}
+
+// The centre of mass is above the floor. Impulses at another time than the weight would turn it.
+TEST_F(RobotContact, AFloatingRobotSlidesUpright) {
+  const std::string block = test::massive("block", 2.0, "0 0 0.1", {0.05, 0.05, 0.05}, "",
+                                          box_at("0 0 0", "0.4 0.4 0.2"));
+  for (const Slider& slider : sliders()) {
+    for (const double friction : {0.0, 0.05}) {
+      const std::string robot = R"("base": {"position": )" + numbers({0.0, 0.0, 0.1 + kNear}) +
+                                R"(}, "dynamics": {"base": "free", "linear_velocity": [1, 0, 0])" +
+                                slider.dynamics + "}";
+      const std::vector<RunStep> steps = run(block + slider.more, 0.0, robot, friction, 0.5, 0.01);
+      const double right = 0.5 - 0.125 * friction * test::kPull;
+      EXPECT_NEAR(steps.back().robots[0].positions[0], right, 5e-5) << slider.name << friction;
+      for (const RunStep& step : steps) {
+        const std::vector<double>& v = step.robots[0].velocities;
+        ASSERT_LT(std::abs(v[2]), 5e-5) << slider.name << friction << " " << step.time;
+        ASSERT_LT(std::abs(v[4]), 3e-4) << slider.name << friction << " " << step.time;
+        ASSERT_NEAR(upward_force(step), slider.mass * test::kPull, 1e-2)
+            << slider.name << friction << " " << step.time;
+      }
+    }
+  }
+}
+
+// A motor without effect changes nothing, and none makes the motion of first order.
+TEST_F(RobotContact, AGantrySlidesWithAnyMotor) {
+  const std::string limit = R"(<limit lower="-9" upper="9" effort="0" velocity="9"/>)";
+  const std::string urdf =
+      "<link name=\"base\"/>" + test::massive("x", 0.5, "0 0 0", {0.01, 0.01, 0.01}) +
+      test::massive("z", 2.5, "0 0 0.1", {0.05, 0.05, 0.05}, "", box_at("0 0 0", "0.4 0.4 0.2")) +
+      test::connected("jx", "prismatic", "base", "x", "1 0 0", "0 0 0", limit) +
+      test::connected("jz", "prismatic", "x", "z", "0 0 1", "0 0 0", limit);
+  const auto slid = [&](const std::string& motors, double step) {
+    const std::string robot = R"("state": {"jz": )" + number_text(0.1 + kNear) +
+                              R"(}, "dynamics": {"base": "fixed", "velocities": {"jx": 2},
+                                                 "motors": {)" +
+                              motors + "}}";
+    return run(urdf, 0.0, robot, 0.2, 0.5, step).back().robots[0].positions[0];
+  };
+  const double weight = 2.5 * test::kPull;
+  for (const double step : {0.01, 0.0025}) {
+    for (const auto& [motors, push, press] : std::vector<std::tuple<std::string, double, double>>{
+             {"", 0.0, 0.0},
+             {R"("jz": {"torque": 0})", 0.0, 0.0},
+             {R"("jx": {"torque": 3})", 3.0, 0.0},
+             {R"("jz": {"torque": -5})", 0.0, 5.0},
+             {R"("jz": {"velocity": -1, "effort": 5})", 0.0, 5.0}}) {
+      const double right = 1.0 + 0.125 / 3.0 * (push - 0.2 * (weight + press));
+      EXPECT_NEAR(slid(motors, step), right, 1e-6) << motors << step;
+    }
+  }
+}
+
+// At rest the torque alone moves the arm, so that no other speed tells how far contacts reach.
+TEST_F(RobotContact, ATorquePressesAnArmWithAllOfItself) {
+  const std::string urdf =
+      "<link name=\"base\"/>" +
+      test::massive("arm", 1.0, "0.25 0 0", {0.01, 0.01, 0.01}, "", ball_at("0.5 0 0")) +
+      test::connected("j", "continuous", "base", "arm", "0 1 0", "0 0 0");
+  for (const double torque : {5.0, 0.5, -2.0}) {
+    const std::string robot = R"("dynamics": {"base": "fixed", "motors": {"j": {"torque": )" +
+                              number_text(torque) + "}}}";
+    for (const double step : {0.02, 0.01, 0.001}) {
+      const std::vector<RunStep> steps = run(urdf, -kRadius - kNear, robot, 0.0, 0.2, step);
+      const double right = (torque + 0.25 * test::kPull) / 0.5;
+      EXPECT_NEAR(upward_force(steps.back()), right, 1e-4 * right) << torque << " " << step;
+      EXPECT_NEAR(steps.back().robots[0].velocities[0], 0.0, 1e-7) << torque << " " << step;
     }
   }
 }

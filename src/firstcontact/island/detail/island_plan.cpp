@@ -319,8 +319,7 @@ Plan IslandPlanner::plan() {
   made.finds_ties = finds_ties;
   std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
-  std::vector<OuterImpulse> changes = outer;
-  take_from_flights(changes);
+  std::vector<OuterImpulse> changes = changes_of(outer);
   ties_.add_changes(solution.ties, changes);
   ties_.add_all(solution.ties, outer);
   made.ties = ties_.impulses(solution.ties);

@@ -131,7 +131,9 @@ class IslandPlanner {
     std::vector<LinkImpulse> on_links;
     std::vector<bool> acts;  // For each robot.
     double energy = 0.0;     // [J]  Energy of the robots, where they fly without contacts.
-    std::vector<OuterImpulse> in_flight;  // For each robot the impulse in its flight.
+    // [N m s]  For each robot the moment in its flight of impulses between its links. It is not
+    // quite 0, as both act at the places of their links halfway.
+    std::vector<Eigen::Vector3d> of_inner;
   };
 
   /// The distance of a contact from its curve after a plan.
@@ -203,6 +205,7 @@ class IslandPlanner {
   [[nodiscard]] bool follow_slides();
   [[nodiscard]] bool follow_spins();
   [[nodiscard]] bool follow_loads();
+  [[nodiscard]] bool is_inner(const ContactPoint& contact) const;
   [[nodiscard]] std::vector<LinkImpulse> impulses_on_links() const;
   [[nodiscard]] std::vector<bool> loaded_robots(const std::vector<LinkImpulse>& impulses) const;
   [[nodiscard]] bool loads_change_much() const;
@@ -210,7 +213,7 @@ class IslandPlanner {
   void take_loads();
   void forget_flights();
   void forget_loads();
-  void take_from_flights(std::vector<OuterImpulse>& outer) const;
+  [[nodiscard]] std::vector<OuterImpulse> changes_of(std::vector<OuterImpulse> outer) const;
   [[nodiscard]] bool may_spin(std::size_t k) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> angular_impulses() const;
   [[nodiscard]] bool spins(std::size_t k) const;

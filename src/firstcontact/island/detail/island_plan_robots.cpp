@@ -65,11 +65,13 @@ void IslandPlanner::choose_rules() {
   }
 }
 
-/// Whether motors drive a robot that would move away if it touched nothing. Then its flight and the
-/// forces of its motors there are no estimate for the plan. Where links turn they are, as the
-/// flight takes in the contacts.
+/// Whether motors answer what a robot at rest touches, and would turn it away without that. Then
+/// the forces of its motors in its flight are no estimate for the plan. Where links turn they are,
+/// as the flight takes in the contacts. They also are where no link turns in the flight, as masses
+/// and Jacobians stay.
 bool IslandPlanner::leaves(std::size_t robot) const {
-  return state_.robots.has_motors(robot) && turn_of_links() < kSwing &&
+  return state_.robots.has_answering_motors(robot) && turn_of_links() < kSwing &&
+         state_.robots.turn_of(robot, flights_[robot]) >= kSwing &&
          state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
 }
 
@@ -167,6 +169,13 @@ double IslandPlanner::turn_of_links() const {
   return kMostTurnOfLinks * span_ / state_.robots.longest_span();
 }
 
+/// Whether a contact is between two links of one robot.
+bool IslandPlanner::is_inner(const ContactPoint& contact) const {
+  const auto [a, b] = contact.bodies;
+  return is_link_body(a) && is_link_body(b) &&
+         state_.robots.robot_of(a) == state_.robots.robot_of(b);
+}
+
 /// The impulses of the last solution's contacts on link bodies.
 std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
   std::vector<LinkImpulse> impulses;
@@ -177,7 +186,7 @@ std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
       if (is_link_body(contact.bodies[s])) {
         const Vector3d on = s == 0 ? Vector3d(-on_B) : on_B;
         const Vector3d& arm = s == 0 ? contact.arm_A : contact.arm_B;
-        impulses.push_back({contact.bodies[s], on, arm.cross(on)});
+        impulses.push_back({contact.bodies[s], on, arm.cross(on), is_inner(contact)});
       }
     }
   }
@@ -185,7 +194,7 @@ std::vector<LinkImpulse> IslandPlanner::impulses_on_links() const {
 }
 
 /// Finds the robots whose links turn while contacts change their velocities: inertia acts on the
-/// change.
+/// change. They may turn now, or in a flight that contacts keep them from.
 std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& impulses) const {
   const double tolerance = projection_options(state_, problem_).tolerance;
   std::vector<bool> loaded(state_.robots.size(), false);
@@ -197,8 +206,9 @@ std::vector<bool> IslandPlanner::loaded_robots(const std::vector<LinkImpulse>& i
       loaded[r] = true;
     } else if (loaded[r]) {
       const VectorXd change = state_.robots.change_by(r, impulses, flights_[r]);
-      loaded[r] = !robots_by_end_[r] &&
-                  turn_of_links() * fastest_of(state_, r, flights_[r], change) > tolerance;
+      const double turn = std::max(turn_of_links(), state_.robots.turn_of(r, flights_[r]));
+      loaded[r] =
+          !robots_by_end_[r] && turn * fastest_of(state_, r, flights_[r], change) > tolerance;
     }
   }
   return loaded;
@@ -263,7 +273,7 @@ std::vector<VectorXd> IslandPlanner::loads_on_robots() {
     return forces;
   }
   forces.resize(state_.robots.size());
-  loads_->in_flight.assign(state_.robots.size(), {});
+  loads_->of_inner.assign(state_.robots.size(), Vector3d::Zero());
   for (std::size_t r = 0; r < forces.size(); ++r) {
     if (!loads_->acts[r]) {
       continue;
@@ -271,8 +281,9 @@ std::vector<VectorXd> IslandPlanner::loads_on_robots() {
     const std::vector<LinkLoad> loads =
         state_.robots.loads_of(r, loads_->on_links, flights_[r], span_);
     for (const LinkLoad& load : loads) {
-      loads_->in_flight[r].linear += span_ * load.force;
-      loads_->in_flight[r].angular += span_ * load.torque;
+      if (load.is_inner) {
+        loads_->of_inner[r] += span_ * load.torque;
+      }
     }
     const VectorXd of_contacts = state_.robots.forces_of(r, loads, flights_[r], span_);
     forces[r] = forces[r].size() > 0 ? VectorXd(forces[r] + of_contacts) : of_contacts;
@@ -280,12 +291,42 @@ std::vector<VectorXd> IslandPlanner::loads_on_robots() {
   return forces;
 }
 
-/// Subtracts the impulses in flights from those on robots.
-void IslandPlanner::take_from_flights(std::vector<OuterImpulse>& outer) const {
-  for (std::size_t r = 0; r < outer.size() && loads_; ++r) {
-    outer[r].linear -= loads_->in_flight[r].linear;
-    outer[r].angular -= loads_->in_flight[r].angular;
+/// Computes the impulses from outside on robots that their flights do not have. They act where the
+/// contact problem has them, with its links at the ends of flights. So velocities that contacts
+/// allow have their momenta.
+///
+/// @param outer  all of them
+std::vector<OuterImpulse> IslandPlanner::changes_of(std::vector<OuterImpulse> outer) const {
+  for (OuterImpulse& change : outer) {
+    change.linear.setZero();
+    change.angular.setZero();
   }
+  const auto add = [&](const LinkImpulse& on, double share) {
+    const std::size_t r = state_.robots.robot_of(on.member);
+    if (!on.is_inner) {
+      const Vector3d centre = state_.robots.centre_at_end(on.member, flights_[r]);
+      outer[r].linear += share * on.linear;
+      outer[r].angular += share * (on.angular + centre.cross(on.linear));
+    }
+  };
+  if (outer.empty()) {
+    return outer;
+  }
+  for (const LinkImpulse& on : impulses_on_links()) {
+    add(on, 1.0);
+  }
+  if (!loads_) {
+    return outer;
+  }
+  for (const LinkImpulse& on : loads_->on_links) {
+    if (loads_->acts[state_.robots.robot_of(on.member)]) {
+      add(on, -1.0);
+    }
+  }
+  for (std::size_t r = 0; r < outer.size(); ++r) {
+    outer[r].angular -= loads_->of_inner[r];
+  }
+  return outer;
 }
 
 /// Puts the impulses of the last solution into the next flights.

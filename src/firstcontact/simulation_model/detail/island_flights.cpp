@@ -95,10 +95,24 @@ std::vector<LinkLoad> IslandRobots::loads_of(std::size_t r,
       const Vector3d centre = 0.5 * (centre_of_mass(inertia, robots_[r].now.links[link].X_WB) +
                                      centre_of_mass(inertia, flight.X_WB[link]));
       loads.push_back({impulse.member, impulse.linear / span,
-                       (impulse.angular + centre.cross(impulse.linear)) / span});
+                       (impulse.angular + centre.cross(impulse.linear)) / span, impulse.is_inner});
     }
   }
   return loads;
+}
+
+double IslandRobots::turn_of(std::size_t r, const RobotFlight& flight) const {
+  double farthest = 0.0;
+  for (std::size_t link = 0; link < robots_[r].links.size(); ++link) {
+    const Pose& begin = robots_[r].now.links[link].X_WB;
+    farthest = std::max(farthest, begin.rotation.angularDistance(flight.X_WB[link].rotation));
+  }
+  return farthest;
+}
+
+Vector3d IslandRobots::centre_at_end(std::size_t member, const RobotFlight& flight) const {
+  const auto& [r, link] = place_[member];
+  return centre_of_mass(robots_[r].links[link].body->inertia, flight.X_WB[link]);
 }
 
 VectorXd IslandRobots::change_by(std::size_t r, const std::vector<LinkImpulse>& impulses,

@@ -100,6 +100,12 @@ bool IslandRobots::has_motors() const {
 
 bool IslandRobots::has_motors(std::size_t r) const { return robots_[r].robot->motor_count() > 0; }
 
+bool IslandRobots::has_answering_motors(std::size_t r) const {
+  return std::ranges::any_of(robots_[r].robot->laws, [](const JointLaw& law) {
+    return law.motor && law.motor->kind != JointMotor::Kind::torque;
+  });
+}
+
 double IslandRobots::longest_span() const {
   double fastest = 0.0;  // [rad/s]
   for (const Robot& robot : robots_) {
@@ -202,8 +208,8 @@ VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
 /// The velocities after contacts at the end of the flight, with the momenta of impulses from
 /// outside.
 ///
-/// Arms are those of the begin. At the end of the flight the two sides of a contact are apart, and
-/// their impulses would turn the robot as a whole.
+/// Arms are those of the begin. At the end of the flight the two sides of a contact between two of
+/// its links are apart, and their impulses would turn the robot as a whole.
 VectorXd IslandRobots::balanced(std::size_t r, const RobotFlight& flight, const OuterImpulse& outer,
                                 const VectorXd& v) const {
   const Mechanism& mechanism = robots_[r].robot->mechanism;

@@ -70,6 +70,7 @@ struct LinkImpulse {
   std::size_t member = 0;                             ///< Index in the island.
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]
+  bool is_inner = false;  ///< Whether another link of the same robot has the opposite impulse.
 };
 
 /// Impulses from outside of a robot, on all of its links.
@@ -87,6 +88,7 @@ struct LinkLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]  About the origin of the world, with
                                                      ///< the link halfway.
+  bool is_inner = false;  ///< Whether another link of the same robot has the opposite load.
 };
 
 /// The end of a robot's plan, and its velocities there.
@@ -111,6 +113,8 @@ class IslandRobots {
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
   [[nodiscard]] bool has_motors(std::size_t robot) const;
+  /// Whether any motor of a robot has a target, so that its force answers contacts.
+  [[nodiscard]] bool has_answering_motors(std::size_t robot) const;
 
   /// [s]  The longest span of a plan: in it no link turns by more than 0.1 rad at its present
   /// speed.
@@ -169,6 +173,12 @@ class IslandRobots {
                                           const std::vector<LinkImpulse>& impulses,
                                           const RobotFlight& flight) const;
 
+  /// [rad]  The turn in a flight of the link body of a robot that turns farthest.
+  [[nodiscard]] double turn_of(std::size_t robot, const RobotFlight& flight) const;
+
+  /// [m]  The centre of mass of a link body at the end of a flight.
+  [[nodiscard]] Eigen::Vector3d centre_at_end(std::size_t member, const RobotFlight& flight) const;
+
   /// [rad or m]  The most by which changes of velocities in a flight move a coordinate.
   [[nodiscard]] double change_of_way(std::size_t robot, const RobotFlight& flight,
                                      double span) const {
@@ -206,6 +216,7 @@ class IslandRobots {
   /// from the end of the flight to there.
   ///
   /// @param by_end  for the problem's bodies: whether velocities at the end lead them
+  /// @param outer   impulses that flights do not have, at the places of the problem
   [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
                                             const ContactSolution& solution,
                                             const std::vector<RobotFlight>& flights,
