@@ -49,6 +49,11 @@ class Island {
       impact();
     }
     while (state_.reached < state_.start.h) {
+      if (is_torn_) {
+        track_.crushed = state_.reached;
+        track_.crushing = scripts_.crushing();
+        break;
+      }
       const std::size_t events = scripts_.try_again()
                                      ? std::min(kMostEventsAgain, state_.model.events)
                                      : state_.model.events;
@@ -63,9 +68,7 @@ class Island {
         return std::nullopt;
       }
       if (is_torn_) {
-        track_.crushed = state_.reached;
-        track_.crushing = scripts_.crushing();
-        break;
+        continue;
       }
       if (*t < 1.0 && !(scripts_.try_again() && is_jammed())) {
         ++track_.events;
@@ -383,6 +386,10 @@ class Island {
     state_.robots.add_mechanisms(problem);
     state_.robots.add_drives_at_impact(problem);
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
+    if (!is_finite(solution)) {
+      is_torn_ = true;
+      return;
+    }
     const PlanSolution impact{solution, !is_solved(state_, solution)};
     std::vector<OuterImpulse> outer =
         outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0);
@@ -414,7 +421,7 @@ class Island {
   double planned_ = 0.0;      // [s]  Span of the plan.
   std::size_t squeezed_ = 0;  // Number of impacts that left a pair squeezed.
   std::size_t crushed_ = 0;   // Number of plans with impacts whose contacts have no solution.
-  bool is_torn_ = false;      // Whether no plan holds the ties.
+  bool is_torn_ = false;      // Whether no plan holds the ties, or no motion is finite.
   MetScripts scripts_ = {};
 };
 

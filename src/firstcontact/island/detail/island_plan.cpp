@@ -316,6 +316,10 @@ Plan IslandPlanner::plan() {
   const ContactSolution& solution = last_->velocities;
   const std::vector<bool> by_end = led_by_end();
   Plan made = plan_of_bodies(by_end);
+  if (!is_finite(solution)) {
+    made.tears_ties = true;
+    return made;
+  }
   made.finds_ties = finds_ties;
   std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);

@@ -120,7 +120,8 @@ bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
   std::vector<bool> led =
       state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end, plan_span());
   for (std::size_t r = 0; r < led.size(); ++r) {
-    led[r] = led[r] || robots_by_end_[r];
+    const bool yields = last_->yields && state_.robots.has_rigid_motors(r);
+    led[r] = led[r] || robots_by_end_[r] || yields;
   }
   if (led == robots_by_end_) {
     return false;
@@ -229,9 +230,11 @@ bool IslandPlanner::loads_change_much() const {
 }
 
 /// Adds the impulses of the last solution's contacts to the flights of robots, as for bodies that
-/// spin. Returns whether that changes the problem.
+/// spin. Impulses of contacts on which motors yield are too large for that: a flight does not
+/// balance them as contacts do. Returns whether that changes the problem.
 bool IslandPlanner::follow_loads() {
-  if (state_.robots.empty() || last_->is_limited || !is_solved(state_, last_->velocities)) {
+  if (state_.robots.empty() || last_->is_limited || last_->yields ||
+      !is_solved(state_, last_->velocities)) {
     return false;
   }
   std::vector<LinkImpulse> impulses = impulses_on_links();

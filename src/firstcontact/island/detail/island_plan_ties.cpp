@@ -169,10 +169,14 @@ void IslandPlanner::forget_ties() {
   solve_where_flown();
 }
 
-/// Whether forces of ties at a singular position move bodies without bound.
+/// Whether a plan moves bodies without bound, as forces of ties may at a singular position. No
+/// motion of such a plan is followed.
 bool IslandPlanner::leads_nowhere(const Plan& plan) const {
-  return !ties_.empty() && !std::ranges::all_of(plan.moves, [](const Move& move) {
-    return move.translation.allFinite() && move.rotation_vector.norm() <= kWildTurnOfTied;
+  return !std::ranges::all_of(plan.moves, [](const Move& move) {
+    return move.translation.allFinite() && move.rotation_vector.norm() <= kMostTurnOfPlan;
+  }) || !std::ranges::all_of(plan.robots, [](const RobotPlan& robot) {
+    return robot.end.positions.allFinite() && robot.end.velocities.allFinite() &&
+           robot.motors.allFinite();
   });
 }
 
@@ -268,8 +272,9 @@ void IslandPlanner::settle(const std::vector<OuterImpulse>& outer, Plan& made) {
   carry_back(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
+  made.tears_ties = leads_nowhere(made);
   if (!state_.ties.empty()) {
-    made.tears_ties = leads_nowhere(made) || tears_ties(state_, made, span_);
+    made.tears_ties = made.tears_ties || tears_ties(state_, made, span_);
     made.finds_ties =
         made.finds_ties &&
         (made.tears_ties || keeps_tied_energy(state_, made, last_->velocities, span_));

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include <firstcontact/contact_solver/detail/re_solve.h>
+#include <firstcontact/island/detail/energy_limit.h>
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/sequential_impacts.h>
 #include <firstcontact/simulation_model/detail/constants.h>
@@ -17,8 +16,6 @@ namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// [m/s, rad/s]  The greatest component of any velocity.
 double fastest(const ContactSolution& solution) {
@@ -37,38 +34,13 @@ double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.model.gravity.norm() * state.start.h);
 }
 
-/// [J]  The energy of a member, by the inertia in the problem: that of now or, where it spins, that
-/// of the end of the plan.
-double energy_of(const IslandState& state, std::size_t k, const InverseInertia& inverse,
-                 const ContactBody& moving) {
-  const Inertia& inertia = state.member(k).inertia;
-  if (is_locked(inertia)) {
-    return kinetic_energy(inertia, {state.states[k].X_WB, moving.v, moving.w});
-  }
-  return 0.5 * inertia.mass * moving.v.squaredNorm() +
-         0.5 * moving.w.dot(inverse.rotation.inverse() * moving.w);
-}
-
-/// [J]  The energy of the members and their robots.
-double energy_of(const IslandState& state, const ContactProblem& problem,
-                 const std::vector<ContactBody>& bodies,
-                 const std::vector<Eigen::VectorXd>& mechanisms) {
-  double sum = kinetic_energy(problem.mechanisms, mechanisms);
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).link_body) {
-      sum += energy_of(state, k, problem.bodies[k].inverse_inertia, bodies[k]);
-    }
-  }
-  return sum;
-}
-
 /// Makes the problem with motors that yield a little to contacts and limits that leave no room for
 /// their target velocities. Nothing where no motor is stronger than any force.
 std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem) {
   std::optional<ContactProblem> yielding;
   for (std::size_t k = 0; k < problem.drives.size(); ++k) {
     const JointDrive& drive = problem.drives[k];
-    if (drive.compliance == 0.0 && std::isinf(drive.least) && std::isinf(drive.greatest)) {
+    if (is_unbounded(drive)) {
       yielding = yielding ? std::move(yielding) : std::optional(problem);
       const auto c = static_cast<Eigen::Index>(drive.coordinate);
       yielding->drives[k].compliance =
@@ -99,175 +71,6 @@ std::optional<ContactProblem> with_slippery_contacts(const ContactProblem& probl
   return has_friction ? std::optional(std::move(slippery)) : std::nullopt;
 }
 
-/// Whether no body outside acts on an island through contacts, and none of its bodies is held.
-bool is_isolated(const IslandState& state, const ContactProblem& problem) {
-  const auto is_set = [](bool lock) { return lock; };
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    const Inertia& inertia = state.member(k).inertia;
-    if (std::ranges::any_of(inertia.locked_translation, is_set) ||
-        std::ranges::any_of(inertia.locked_rotation, is_set)) {
-      return false;
-    }
-  }
-  for (std::size_t r = 0; r < state.robots.size(); ++r) {
-    if (!state.robots.free_base(r)) {
-      return false;
-    }
-  }
-  const bool is_tied = std::ranges::any_of(problem.ties, [&](const TieRow& tie) {
-    return tie.sides.size() < 2 || std::ranges::any_of(tie.sides, [&](const TieSide& side) {
-             return side.body >= state.size();
-           });
-  });
-  return !is_tied && std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
-    return contact.bodies[0] < state.size() && contact.bodies[1] < state.size();
-  });
-}
-
-/// The sum of masses, moments and momenta, about the origin.
-class Sum {
- public:
-  /// @param inertia   (6, 6)  of (v, w) at a point, @param momentum  about the point
-  void add(const Matrix6d& inertia, const Vector6d& momentum, const Vector3d& point) {
-    Matrix6d to_point = Matrix6d::Identity();  // Velocities at the origin give those at the point.
-    to_point.topRightCorner<3, 3>() << 0.0, point.z(), -point.y(), -point.z(), 0.0, point.x(),
-        point.y(), -point.x(), 0.0;
-    inertia_ += to_point.transpose() * inertia * to_point;
-    momentum_ += to_point.transpose() * momentum;
-  }
-
-  /// The velocity of all of it as one rigid body with these momenta.
-  [[nodiscard]] Vector6d velocity() const { return inertia_.ldlt().solve(momentum_); }
-
- private:
-  Matrix6d inertia_ = Matrix6d::Zero();
-  Vector6d momentum_ = Vector6d::Zero();
-};
-
-/// Makes the motion of an island as one rigid body with the momenta of a solution.
-ContactSolution as_one_body(const IslandState& state, const ContactProblem& problem,
-                            const ContactSolution& solution) {
-  Sum sum;
-  const auto centre = [&](std::size_t k) {
-    return centre_of_mass(state.member(k).inertia, state.states[k].X_WB);
-  };
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).link_body) {
-      const Inertia& of_body = state.member(k).inertia;
-      Matrix6d inertia = of_body.mass * Matrix6d::Identity();
-      inertia.bottomRightCorner<3, 3>() = rotational_inertia(of_body, state.states[k].X_WB);
-      Vector6d velocity;
-      velocity << solution.bodies[k].v, solution.bodies[k].w;
-      sum.add(inertia, inertia * velocity, centre(k));
-    }
-  }
-  for (std::size_t r = 0; r < problem.mechanisms.size(); ++r) {
-    const Eigen::MatrixXd& inverse = problem.mechanisms[r].inverse_mass;
-    const Eigen::MatrixXd M =
-        inverse.llt().solve(Eigen::MatrixXd::Identity(inverse.rows(), inverse.cols()));
-    sum.add(M.topLeftCorner<6, 6>(), M.topRows<6>() * solution.mechanisms[r],
-            *state.robots.free_base(r));
-  }
-  const Vector6d V = sum.velocity();
-  const Vector3d w = V.tail<3>();
-  ContactSolution one = solution;
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    one.bodies[k].v = V.head<3>() + w.cross(centre(k));
-    one.bodies[k].w = w;
-  }
-  for (std::size_t r = 0; r < problem.mechanisms.size(); ++r) {
-    one.mechanisms[r].setZero();
-    one.mechanisms[r].head<6>() << V.head<3>() + w.cross(*state.robots.free_base(r)), w;
-  }
-  return one;
-}
-
-/// Takes a share of the velocities of a solution, on top of those of another one.
-void shorten(const ContactSolution& to, double share, std::size_t members,
-             ContactSolution& solution) {
-  for (std::size_t k = 0; k < members; ++k) {
-    solution.bodies[k].v = to.bodies[k].v + share * (solution.bodies[k].v - to.bodies[k].v);
-    solution.bodies[k].w = to.bodies[k].w + share * (solution.bodies[k].w - to.bodies[k].w);
-  }
-  for (std::size_t r = 0; r < solution.mechanisms.size(); ++r) {
-    solution.mechanisms[r] = to.mechanisms[r] + share * (solution.mechanisms[r] - to.mechanisms[r]);
-  }
-}
-
-/// Shortens the velocities of an isolated island relative to its motion as one body. So it keeps
-/// its momenta and has the permitted energy [J].
-void shorten_within(const IslandState& state, const ContactProblem& problem, double allowed,
-                    ContactSolution& solution) {
-  const ContactSolution one = as_one_body(state, problem, solution);
-  const auto energy_at = [&](double share) {
-    ContactSolution at = solution;
-    shorten(one, share, state.size(), at);
-    return energy_of(state, problem, at.bodies, at.mechanisms);
-  };
-  // a + b s + c s^2
-  const double a = energy_at(0.0);
-  const double whole = energy_at(1.0) - a;
-  const double half = energy_at(0.5) - a;
-  const double c = 2.0 * whole - 4.0 * half;
-  const double b = whole - c;
-  const double under = b * b + 4.0 * c * std::max(0.0, allowed - a);
-  const double share = c > 0.0 ? (std::sqrt(std::max(0.0, under)) - b) / (2.0 * c) : 0.0;
-  shorten(one, std::clamp(share, 0.0, 1.0), state.size(), solution);
-}
-
-/// Limits the energy of a solution: contacts add none. Without moving bodies around, rest meets all
-/// contacts, so the projection on them makes no velocity longer in the kinetic metric. A scripted
-/// body adds at most its own speed twice, and so does a belt. For a problem without solution, as
-/// for a crushed body, the solver's answer is arbitrary: it is shortened to the energy before, or
-/// to that of moving with the script. An isolated island keeps its momenta. Motors add what they
-/// want, as long as there is a solution.
-///
-/// @param free  [J]  before; if nothing, that of the problem's velocities
-/// @returns whether it was shortened
-bool limit_energy(const IslandState& state, const ContactProblem& problem,
-                  ContactSolution& solution, std::optional<double> free = std::nullopt) {
-  const bool has_solution = is_solved(state, solution);
-  if (has_solution && (state.robots.has_motors() || !problem.ties.empty())) {
-    return false;
-  }
-  const double before = free ? *free : free_energy(state, problem);
-  const double after = energy_of(state, problem, solution.bodies, solution.mechanisms);
-  double mass = 0.0;
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    mass += state.member(k).inertia.mass;
-  }
-  double speed = 0.0;
-  for (const ContactPoint& contact : problem.contacts) {
-    speed = std::max(speed, contact.sticking_velocity.norm());
-    for (int side = 0; side < 2; ++side) {
-      const ContactBody& body = problem.bodies[contact.bodies[side]];
-      if (contact.bodies[side] >= state.size()) {
-        const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
-        speed = std::max(speed, (body.v + body.w.cross(arm)).norm());
-      }
-    }
-  }
-  const double along = speed * std::sqrt(0.5 * mass);
-  const double allowed =
-      has_solution ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
-  if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
-    return false;
-  }
-  if (is_isolated(state, problem)) {
-    shorten_within(state, problem, allowed * allowed, solution);
-    return true;
-  }
-  const double share = allowed / std::sqrt(after);
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    solution.bodies[k].v *= share;
-    solution.bodies[k].w *= share;
-  }
-  for (Eigen::VectorXd& velocities : solution.mechanisms) {
-    velocities *= share;
-  }
-  return true;
-}
-
 /// Whether sweeps alone would not converge.
 bool has_many(const IslandState& state, std::size_t contacts) {
   return contacts >= kHeapContacts && state.size() >= kHeapBodies;
@@ -288,12 +91,13 @@ bool stands(const IslandState& state) {
 PlanSolution project_with_motors(const IslandState& state, const ContactProblem& problem,
                                  const ProjectionOptions& options, std::optional<double> free) {
   PlanSolution plan{project_on_contacts(problem, options)};
-  if (!is_solved(state, plan.velocities)) {
+  if (!is_solved(state, plan.velocities) || squeezes_out(state, problem, plan.velocities, free)) {
     if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
       plan.velocities = project_on_contacts(*yielding, options);
+      plan.yields = true;
     }
   }
-  plan.is_limited = limit_energy(state, problem, plan.velocities, free);
+  plan.is_limited = limit_energy(state, problem, plan.velocities, plan.yields, free);
   return plan;
 }
 
@@ -333,6 +137,19 @@ bool is_solved(const IslandState& state, const ContactSolution& solution) {
 }
 
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
+
+bool is_finite(const ContactSolution& solution) {
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  return std::ranges::all_of(
+             solution.bodies,
+             [](const ContactBody& body) { return body.v.allFinite() && body.w.allFinite(); }) &&
+         std::ranges::all_of(solution.mechanisms,
+                             [](const Eigen::VectorXd& v) { return v.allFinite(); }) &&
+         std::ranges::all_of(solution.impulses,
+                             [](const Vector3d& impulse) { return impulse.allFinite(); }) &&
+         std::ranges::all_of(solution.drives, is_finite) &&
+         std::ranges::all_of(solution.ties, is_finite) && std::isfinite(solution.residual);
+}
 
 bool is_heap(const IslandState& state, std::size_t contacts) {
   return has_many(state, contacts) && !stands(state);
@@ -433,12 +250,14 @@ ContactSolution project_simultaneous_impact(const IslandState& state, const Cont
         projection_options(state, given));
   };
   ContactSolution solution = project(problem);
-  if (!is_solved(state, solution)) {
+  bool yields = false;
+  if (!is_solved(state, solution) || squeezes_out(state, problem, solution, std::nullopt)) {
     if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
       solution = project(*yielding);
+      yields = true;
     }
   }
-  limit_energy(state, problem, solution);
+  limit_energy(state, problem, solution, yields);
   return solution;
 }
 

@@ -31,6 +31,9 @@ struct PlanSolution {
   bool is_limited = false;  ///< Whether they are shorter than contacts require.
   /// Whether contacts have less friction than they should; `residual` shows by how much.
   bool slips = false;
+  /// Whether motors without bound had to yield. Their impulses, and those of contacts, are then far
+  /// larger than any motion needs.
+  bool yields = false;
 };
 
 /// [J]  Computes the energy of the free velocities of a plan.
@@ -80,6 +83,9 @@ struct PlanSolution {
 
 /// Whether a problem has a solution that was found.
 [[nodiscard]] bool is_solved(const IslandState& state, const ContactSolution& solution);
+
+/// Whether all velocities and impulses of a solution are finite.
+[[nodiscard]] bool is_finite(const ContactSolution& solution);
 
 /// Computes the impulses of other bodies on each robot.
 ///

@@ -144,6 +144,9 @@ inline constexpr double kStallOfStep = 1e-9;
 /// [plans]  Number of times that slight predicted contacts become constraints. After that bodies
 /// move until the first of them.
 inline constexpr int kRoundsOfSlight = 12;
+/// [rad]  A plan that turns a body farther is wrong, as is one whose motion is not finite. Shorter
+/// plans are tried; where none is right, the rest of the step is lost.
+inline constexpr double kMostTurnOfPlan = 1e6;
 /// [-]  A plan that was stopped is followed by one of at least this part of its span.
 inline constexpr double kLeastShareOfPlan = 0.1;
 /// [-]  The shortest plan, by the step, for links that turn fast, bodies that tumble, and
@@ -282,8 +285,6 @@ inline constexpr double kFarthestOfGap = 20.0;
 inline constexpr std::size_t kMostTautEvents = 20;
 /// [rad]  Greatest turn of bodies with ties in a plan.
 inline constexpr double kMostTurnOfTied = 0.25;
-/// [rad]  A plan that turns a body with ties farther is wrong.
-inline constexpr double kWildTurnOfTied = 1e6;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
 /// energy. Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTied = 1e-3;
@@ -334,6 +335,9 @@ inline constexpr double kUnsolved = 1e-2;
 /// [-]  Likewise by the velocities, where there is no gravity: well above rounding.
 inline constexpr double kUnsolvedOfSpeed = 1e-9;
 
+/// [-]  Motors without bound also yield where bodies would be faster than before, and than these
+/// motors want to move links, by this factor. Larger: a wedge that hardly closes shoots them out.
+inline constexpr double kMostSqueeze = 10.0;
 /// [-]  Motors without bound yield by this part of the effect of impulses on their coordinates,
 /// where a problem has no solution otherwise. Smaller: they press harder on an obstacle.
 inline constexpr double kYield = 1e-3;

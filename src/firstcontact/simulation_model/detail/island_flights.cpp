@@ -57,6 +57,10 @@ MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vecto
 
 }  // namespace
 
+bool IslandRobots::has_rigid_motors(std::size_t r) const {
+  return robots_[r].robot->rigid_motor_count() > 0;
+}
+
 void IslandRobots::take_links(std::vector<LinkPlace>& links, RobotFlight& flight) {
   for (LinkPlace& link : links) {
     flight.J.push_back(std::move(link.J));

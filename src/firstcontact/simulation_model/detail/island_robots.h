@@ -115,6 +115,8 @@ class IslandRobots {
   [[nodiscard]] bool has_motors(std::size_t robot) const;
   /// Whether any motor of a robot has a target, so that its force answers contacts.
   [[nodiscard]] bool has_answering_motors(std::size_t robot) const;
+  /// Whether any motor of a robot has no bound.
+  [[nodiscard]] bool has_rigid_motors(std::size_t robot) const;
 
   /// [s]  The longest span of a plan: in it no link turns by more than 0.1 rad at its present
   /// speed.
