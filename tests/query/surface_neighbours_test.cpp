@@ -110,6 +110,19 @@ TEST(SurfaceNeighbours, CornersOfATiltedFaceAreOutermostWithinTheSlack) {
   }
 }
 
+// The caps of a cylinder are fans around their middle.
+TEST(SurfaceNeighbours, OnlyTheMiddleOfACapIsWithinAFlatFace) {
+  const Shape cylinder = make_cylinder(1.0, 2.0);
+  const SurfaceNeighbours neighbours(cylinder, 0.0);
+  int within = 0;
+  for (std::uint32_t v = 0; v < cylinder.mesh().vertices.size(); ++v) {
+    const bool is_middle = cylinder.mesh().vertices[v].head<2>().norm() < 0.5;
+    within += is_middle;
+    EXPECT_EQ(neighbours.extent(vertex(v)), is_middle ? Extent::plane : Extent::corner) << v;
+  }
+  EXPECT_EQ(within, 2);
+}
+
 TEST(SurfaceNeighbours, FlatAreTheDiagonalsOfABoxAlone) {
   const Shape cube = make_box({2.0, 2.0, 2.0});
   const SurfaceNeighbours neighbours(cube, 1e-3);

@@ -111,5 +111,51 @@ TEST(SpinningContact, FrictionAddsNoMoreThanTheErrorOfTheRule) {
   }
 }
 
+/// [rad/s]  The spin of a body that lies on a floor and spun at 3 rad/s, after 0.05 s.
+double slowed(const std::string& shape, const std::string& floor) {
+  Simulator s =
+      simulator(floor + ", " +
+                    test::body("puck", shape, "[0, 0, 0.050015]",
+                               R"(, "dynamics": {"mass": 1, "angular_velocity": [0, 0, 3]})"),
+                settings(0.01, 0.2, 1e-5));
+  return run(s, 5).back().bodies[0].angular_velocity.z();
+}
+
+/// A mesh of squares of 0.1 m whose corners are beside the origin.
+std::string floor_of_squares() {
+  constexpr int kCount = 20;
+  std::string vertices;
+  std::string triangles;
+  for (int i = 0; i <= kCount; ++i) {
+    for (int k = 0; k <= kCount; ++k) {
+      vertices +=
+          (vertices.empty() ? "" : ", ") + test::numbers({0.1 * i - 0.98, 0.1 * k - 0.97, 0.0});
+      const int corner = i * (kCount + 1) + k;
+      if (i < kCount && k < kCount) {
+        triangles +=
+            (triangles.empty() ? "" : ", ") +
+            test::numbers({1.0 * corner, 1.0 * (corner + kCount + 1), corner + 1.0}) + ", " +
+            test::numbers({corner + 1.0, 1.0 * (corner + kCount + 1), 1.0 * (corner + kCount + 2)});
+      }
+    }
+  }
+  return R"({"name": "floor", "shape": {"vertices": [)" + vertices + R"(], "triangles": [)" +
+         triangles + "]}}";
+}
+
+// The corners of the overlap alone carry a body. The middle of a cap is a vertex of its fan, and a
+// floor may have vertices below the body: a load on these would have no arm.
+TEST(SpinningContact, FrictionDoesNotFeelHowFacesAreCut) {
+  constexpr double kArm = 0.2;
+  const double stop = 0.2 * 9.81 * kArm * 0.05;  // [N m s]
+  for (const std::string& floor : {test::kFloor, floor_of_squares()}) {
+    const double disc = slowed(R"({"cylinder": {"radius": 0.2, "length": 0.1}})", floor);
+    EXPECT_NEAR(disc, 3.0 - stop / (0.5 * kArm * kArm), 2e-3);
+    const double side = kArm * std::sqrt(2.0);
+    const double block = slowed(test::box(test::numbers({side, side, 0.1})), floor);
+    EXPECT_NEAR(block, 3.0 - stop / (side * side / 6.0), 2e-3);
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -78,6 +78,7 @@ SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, const NeighbourSlack& s
     is_flat_.push_back(are_flat(edges_.of(e)));
   }
   find_flat_vertices(shape);
+  find_straight_vertices(shape);
   find_flat_faces(shape);
 }
 
@@ -90,6 +91,39 @@ void SurfaceNeighbours::find_flat_vertices(const Shape& shape) {
       is_flat_vertex_[end] = is_flat_vertex_[end] && is_flat_[e];
     }
   }
+}
+
+void SurfaceNeighbours::find_straight_vertices(const Shape& shape) {
+  const std::vector<Vector3d>& vertices = shape.mesh().vertices;
+  std::vector<int> bends(vertices.size(), 0);  // Number of edges that divide no flat face.
+  std::vector<Vector3d> first(vertices.size(), Vector3d::Zero());
+  is_straight_vertex_.assign(vertices.size(), false);
+  for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
+    const std::array<std::uint32_t, 2> ends = shape.edge(e);
+    for (std::size_t k = 0; k < 2 && !is_flat_[e]; ++k) {
+      const std::uint32_t v = ends[k];
+      const Vector3d along = (vertices[ends[1 - k]] - vertices[v]).stableNormalized();
+      if (++bends[v] == 1) {
+        first[v] = along;
+      }
+      is_straight_vertex_[v] =
+          bends[v] == 2 && along.dot(first[v]) < 0.0 && along.cross(first[v]).norm() <= kTilt;
+    }
+  }
+}
+
+Extent SurfaceNeighbours::extent(const Feature& feature) const {
+  switch (feature.type) {
+    case FeatureType::vertex:
+      return is_flat_vertex_[feature.index]       ? Extent::plane
+             : is_straight_vertex_[feature.index] ? Extent::line
+                                                  : Extent::corner;
+    case FeatureType::edge:
+      return is_flat_[feature.index] ? Extent::plane : Extent::line;
+    case FeatureType::face:
+      break;
+  }
+  return Extent::plane;
 }
 
 void SurfaceNeighbours::find_flat_faces(const Shape& shape) {

@@ -23,6 +23,13 @@ struct NeighbourSlack {
   double far_from = std::numeric_limits<double>::infinity();  ///< [m]
 };
 
+/// How far a surface goes on straight around a feature.
+enum class Extent {
+  corner,  ///< In no direction.
+  line,    ///< Along an edge.
+  plane,   ///< In all directions of a flat face.
+};
+
 /// Separates contacts at which a surface bulges towards the other body from those with a nearer
 /// neighbour.
 /// A neighbour is a feature next to that of the contact. A corner that slides over a flat edge
@@ -39,6 +46,10 @@ class SurfaceNeighbours {
   ///
   /// @param direction_B  [-]  unit, body axes: from the feature to the other body
   [[nodiscard]] bool is_outermost(const Feature& feature, const Eigen::Vector3d& direction_B) const;
+
+  /// How far the surface goes on straight around a feature. A vertex may be within a flat face or
+  /// on a straight edge, as where a mesh is cut finer than it is shaped.
+  [[nodiscard]] Extent extent(const Feature& feature) const;
 
   /// Whether the feature is an edge that divides a flat face.
   [[nodiscard]] bool is_flat_edge(const Feature& feature) const {
@@ -82,10 +93,12 @@ class SurfaceNeighbours {
   };
   static bool none_is_farther(std::span<const Offset> offsets, const Eigen::Vector3d& direction_B);
   void find_flat_vertices(const Shape& shape);
+  void find_straight_vertices(const Shape& shape);
   void find_flat_faces(const Shape& shape);
 
   std::vector<bool> is_flat_;             // For each edge.
   std::vector<bool> is_flat_vertex_;      // For each vertex: whether all of its edges are flat.
+  std::vector<bool> is_straight_vertex_;  // Likewise, but for two that are one line.
   std::vector<std::uint32_t> flat_face_;  // For each triangle: the first one of its flat face.
   OffsetRows edges_;
   OffsetRows vertices_;

@@ -119,13 +119,15 @@ class FacingBodies {
 
   /// Whether the bodies bulge towards each other at a contact.
   ///
-  /// It is false where edges cross within a flat face. Over that the gap is least at the ends of
-  /// the other edge, or where it leaves the face.
+  /// It is false where a flat face of one body is over a flat face or a straight edge of the other.
+  /// There the gap is least at the corners of the overlap: at a corner of one body, or where two
+  /// edges cross. Corners alone so carry the load, however the faces are cut into triangles.
   [[nodiscard]] bool are_outermost(const Contact& contact) const {
     const Vector3d& n_W = *contact.n_AB_W;
-    const bool are_edges =
-        contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
-    if (are_edges && (A_.is_flat_edge(contact.feature_A) || B_.is_flat_edge(contact.feature_B))) {
+    const Extent of_A = A_.extent(contact.feature_A);
+    const Extent of_B = B_.extent(contact.feature_B);
+    if (of_A != Extent::corner && of_B != Extent::corner &&
+        (of_A == Extent::plane || of_B == Extent::plane)) {
       return false;
     }
     return A_.is_outermost(contact.feature_A, R_AW_ * n_W) &&
