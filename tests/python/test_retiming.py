@@ -159,6 +159,25 @@ def test_scaling_multiplies_all_limits(arm):
                 fc.retime(along(arm, WAY), limits=LIMITS, **{option: bad})
 
 
+def test_blends_stay_within_their_deviation(arm):
+    wide = fc.retime(along(arm, WAY), mode="blend", limits=LIMITS)
+    narrow = fc.retime(along(arm, WAY), mode="blend", limits=LIMITS, blend_deviation=0.01)
+    assert wide.left_out == narrow.left_out == 0 and narrow.duration > wide.duration
+    places = np.array([state_at(narrow.trajectory, t) for t in np.linspace(0, narrow.duration, 4000)])
+    for waypoint in WAY:
+        assert np.abs(places - waypoint).max(axis=1).min() <= 0.01 + 1e-3  # Sampled.
+    with pytest.raises(ValueError, match="blend_deviation"):
+        fc.retime(along(arm, WAY), mode="blend", limits=LIMITS, blend_deviation=0)
+
+
+def test_finely_divided_edges_cost_no_time(arm):
+    fine = np.linspace([0, 0], [1, 0.5], 301)
+    coarse = fc.retime(along(arm, [[0, 0], [1, 0.5]]), mode="blend", limits=LIMITS)
+    answer = fc.retime(along(arm, fine.tolist()), mode="blend", limits=LIMITS)
+    assert answer.left_out == 299
+    assert answer.duration == pytest.approx(coarse.duration, rel=1e-3)
+
+
 def test_limits_for_all_joints(arm):
     answer = fc.retime(along(arm, WAY), max_acceleration=4)
     assert answer.verdict == "proven" and answer.trajectory.accelerations is None
