@@ -302,7 +302,7 @@ TEST_F(RobotContact, ATorquePressesAnArmWithAllOfItself) {
     for (const double step : {0.02, 0.01, 0.001}) {
       const std::vector<RunStep> steps = run(urdf, -kRadius - kNear, robot, 0.0, 0.2, step);
       const double right = (torque + 0.25 * test::kPull) / 0.5;
-      EXPECT_NEAR(upward_force(steps.back()), right, 1e-4 * right) << torque << " " << step;
+      EXPECT_NEAR(upward_force(steps.back()), right, 2e-6 * right) << torque << " " << step;
       EXPECT_NEAR(steps.back().robots[0].velocities[0], 0.0, 1e-7) << torque << " " << step;
     }
   }

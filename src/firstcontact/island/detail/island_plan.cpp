@@ -271,7 +271,8 @@ bool IslandPlanner::find_solution() {
     const bool slides = follow_slides();  // First: it looks at the contacts as they were solved.
     const bool turns = follow_curves();
     const bool spins = follow_spins();
-    const bool swings = pass == 0 && follow_loads();
+    // The first flight of a robot at rest turned away, so that its contacts had other arms.
+    const bool swings = (pass == 0 || turn_of_links() < kSwing) && follow_loads();
     if (spins || swings) {
       last_.reset();
     }
