@@ -15,6 +15,7 @@
 
 namespace firstcontact::detail {
 
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
