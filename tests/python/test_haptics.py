@@ -1,5 +1,6 @@
 """Tools that follow haptic devices."""
 
+import concurrent.futures
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,16 @@ def test_feels_nothing_by_a_lost_device_or_a_clutch():
     assert (tick.forces == 0).all() and tick.faults == ["device"]
     tick = press(session, 0.012, buttons=[2])
     assert (tick.forces == 0).all() and tick.faults == ["disengaged"]
+
+
+def test_sessions_of_several_threads_feel_what_each_feels_alone():
+    def felt(depth):
+        session = fc.HapticSession(SCENE)
+        return [press(session, depth, ticks=1).forces.tolist() for _ in range(600)]
+
+    depths = [0.011, 0.012, 0.014]
+    with concurrent.futures.ThreadPoolExecutor(len(depths)) as pool:
+        assert list(pool.map(felt, depths)) == [felt(depth) for depth in depths]
 
 
 def test_is_proven_by_its_record(tmp_path):

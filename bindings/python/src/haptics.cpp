@@ -22,6 +22,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "busy.h"
 #include "run.h"
 #include "scene.h"
 
@@ -137,7 +138,7 @@ struct FeltTick {
   }
 };
 
-/// A session in virtual time, with its record.
+/// A session in virtual time, with its record. One thread at a time may use it.
 class FeltSession {
  public:
   FeltSession(const LoadedScene& loaded, std::int64_t latency_ns)
@@ -147,6 +148,7 @@ class FeltSession {
 
   FeltTick step(const py::object& handles, const std::vector<std::uint32_t>& buttons,
                 const std::vector<std::vector<double>>& grips) {
+    require_idle(is_busy_, "HapticSession");
     const std::vector<std::optional<Pose>> poses = poses_from(handles);
     if (!buttons.empty() && buttons.size() != poses.size()) {
       throw std::invalid_argument("step: expected as many buttons as poses, or none");
@@ -165,6 +167,8 @@ class FeltSession {
       take_grips(grips.empty() ? std::vector<double>() : grips[k], k, state);
       states.push_back(state);
     }
+    const Busy busy(is_busy_);
+    const py::gil_scoped_release release;
     FeltTick felt{.tick = session_.step(states), .tools = setup_.scene.tools.size()};
     for (std::size_t k = 0; k < felt.tools; ++k) {
       felt.grips[k] = grips_of(k);
@@ -176,21 +180,28 @@ class FeltSession {
     return felt;
   }
 
-  [[nodiscard]] const HapticSession& session() const { return session_; }
+  /// @throws std::runtime_error while another thread takes a step, as all that reads the session
+  [[nodiscard]] const HapticSession& session() const {
+    require_idle(is_busy_, "HapticSession");
+    return session_;
+  }
   [[nodiscard]] const RunHeader& header() const { return run_.header(); }
-  [[nodiscard]] const std::optional<RunStep>& cycle() const { return cycle_; }
+  [[nodiscard]] const std::optional<RunStep>& cycle() const {
+    require_idle(is_busy_, "HapticSession");
+    return cycle_;
+  }
   [[nodiscard]] const HapticSetup& setup() const { return setup_; }
 
   [[nodiscard]] std::vector<Pose> poses() const {
     std::vector<Pose> found;
     for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
-      found.push_back(session_.contacts().pose(k));
+      found.push_back(session().contacts().pose(k));
     }
     return found;
   }
 
   [[nodiscard]] py::array joints() const {
-    const auto joints = session_.contacts().joints();
+    const auto joints = session().contacts().joints();
     return owning(std::vector<double>(joints.begin(), joints.end()));
   }
 
@@ -205,7 +216,7 @@ class FeltSession {
   }
 
   [[nodiscard]] py::array contacts(Eigen::Vector3d HapticContact::*what) const {
-    const HapticContactSet& set = session_.contacts().contact_set();
+    const HapticContactSet& set = session().contacts().contact_set();
     std::vector<Eigen::Vector3d> found;
     for (std::size_t k = 0; k < set.count; ++k) {
       found.push_back(set.contacts[k].*what);
@@ -214,7 +225,7 @@ class FeltSession {
   }
 
   [[nodiscard]] py::array gaps() const {
-    const HapticContactSet& set = session_.contacts().contact_set();
+    const HapticContactSet& set = session().contacts().contact_set();
     std::vector<double> found;
     for (std::size_t k = 0; k < set.count; ++k) {
       found.push_back(set.contacts[k].gap);
@@ -247,6 +258,7 @@ class FeltSession {
   HapticRun run_;
   std::optional<RunStep> cycle_;
   std::uint64_t count_ = 0;
+  bool is_busy_ = false;
 };
 
 std::unique_ptr<FeltSession> make_felt_session(const py::object& scene, double duration,

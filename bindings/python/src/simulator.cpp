@@ -19,6 +19,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "busy.h"
 #include "interrupts.h"
 #include "motion.h"
 #include "query.h"
@@ -42,9 +43,7 @@ class HeldSimulator {
   ///
   /// @throws std::runtime_error while another thread has it busy
   Simulator& idle() {
-    if (is_busy_) {
-      throw std::runtime_error("Simulator: another thread takes a step; it may be used after that");
-    }
+    require_idle(is_busy_, "Simulator");
     return simulator_;
   }
 
@@ -58,18 +57,6 @@ class HeldSimulator {
   }
 
  private:
-  /// Made and destroyed with the GIL.
-  class Busy {
-   public:
-    explicit Busy(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Busy() { flag_ = false; }
-    Busy(const Busy&) = delete;
-    Busy& operator=(const Busy&) = delete;
-
-   private:
-    bool& flag_;
-  };
-
   Simulator simulator_;
   bool is_busy_ = false;
 };
