@@ -73,8 +73,8 @@ TEST(HullProof, FindsTheFirstContactOfTheTriangles) {
 TEST(HullProof, EndsWithItsBudget) {
   const Shape A = make_cylinder(0.02, 0.2);
   const Motion still = Motion::fixed();
-  const Motion moves =
-      Motion::constant_velocity({{0.0, 0.0, 1.0}, {}}, Vector3d(0.0, 0.0, -2.0), Vector3d(1, 2, 3));
+  const Motion moves = Motion::constant_velocity({.position = {0.0, 0.0, 1.0}},
+                                                 Vector3d(0.0, 0.0, -2.0), Vector3d(1, 2, 3));
   FirstContactOptions options;
   options.budget.steps = 1;
   FirstContactResult found;
