@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/hull_proof.h>
+#include <firstcontact/query/distance.h>
 
 #include "support/random.h"
 
@@ -34,15 +37,15 @@ Mesh mesh_of(const Shape& shape, std::size_t left_out, const Vector3d& beside) {
   return mesh;
 }
 
-TEST(HullProof, TellsConvexShapes) {
-  EXPECT_TRUE(is_convex(make_box({1.0, 2.0, 3.0}), 0.0));
-  EXPECT_TRUE(is_convex(make_cylinder(0.02, 0.2), 0.0));
-  EXPECT_TRUE(is_convex(make_cone(0.02, 0.2), 0.0));
-  EXPECT_TRUE(is_convex(make_ellipsoid({0.02, 0.03, 0.05}, 1e-3), 1e-9));
+TEST(HullProof, FindsShapesThatFillTheirHulls) {
+  EXPECT_TRUE(fills_its_hull(make_box({1.0, 2.0, 3.0}), 0.0));
+  EXPECT_TRUE(fills_its_hull(make_cylinder(0.02, 0.2), 0.0));
+  EXPECT_TRUE(fills_its_hull(make_cone(0.02, 0.2), 0.0));
+  EXPECT_TRUE(fills_its_hull(make_ellipsoid({0.02, 0.03, 0.05}, 1e-3), 1e-9));
   const Shape box = make_box({1.0, 2.0, 3.0});
-  EXPECT_FALSE(is_convex(Shape(mesh_of(box, 1, Vector3d::Zero())), 0.0));         // Open.
-  EXPECT_FALSE(is_convex(Shape(mesh_of(box, 0, Vector3d(5.0, 0.0, 0.0))), 0.0));  // Two boxes.
-  EXPECT_FALSE(is_convex(Shape(mesh_of(box, 10, Vector3d::Zero())), 0.0));        // Flat.
+  EXPECT_FALSE(fills_its_hull(Shape(mesh_of(box, 1, Vector3d::Zero())), 0.0));         // Open.
+  EXPECT_FALSE(fills_its_hull(Shape(mesh_of(box, 0, Vector3d(5.0, 0.0, 0.0))), 0.0));  // Two boxes.
+  EXPECT_FALSE(fills_its_hull(Shape(mesh_of(box, 10, Vector3d::Zero())), 0.0));        // Flat.
 }
 
 TEST(HullProof, FindsTheFirstContactOfTheTriangles) {
@@ -68,6 +71,37 @@ TEST(HullProof, FindsTheFirstContactOfTheTriangles) {
     contacts += found.verdict == Verdict::contact ? 1 : 0;
   }
   EXPECT_GT(contacts, 50);
+}
+
+// The reason for hulls: crossed slivers of two cylinders cost a proof by triangles this much.
+TEST(HullProof, TakesFewStepsWhereThinTrianglesCross) {
+  const Shape bar = make_cylinder(0.02, 0.2).as_triangles();
+  const Shape tool = make_cylinder(0.02, 0.08).as_triangles();
+  const double right_angle = 0.5 * std::numbers::pi;
+  const Motion still =
+      Motion::fixed({Vector3d(0.0, 0.0, -0.02),
+                     Eigen::Quaterniond(Eigen::AngleAxisd(right_angle, Vector3d::UnitY()))});
+  Pose near{Vector3d(0.0, 0.0, 0.03),
+            Eigen::AngleAxisd(0.15, Vector3d(0.3, 0.2, 0.3).normalized()) *
+                Eigen::Quaterniond(Eigen::AngleAxisd(right_angle, Vector3d::UnitX()))};
+  Workspace workspace;
+  for (int k = 0; k < 20; ++k) {  // Down to 3 contact distances.
+    near.position.z() -=
+        distance({bar, still}, {tool, Motion::fixed(near)}, 0.0, workspace).distance - 3e-5;
+  }
+  const Motion lifts =
+      Motion::constant_velocity(near, Vector3d(0.0, 0.0, 1e-3), Vector3d(0.0, 0.0, 1e-3));
+  const FirstContactOptions options{
+      .margin = 1e-5, .tolerance = 1e-6, .contacts = ContactState::none};
+  const FirstContactResult by_triangles =
+      first_contact({bar, still}, {tool, lifts}, workspace, options);
+  FirstContactResult found;
+  first_contact_of_hulls({bar, still}, {tool, lifts}, options, found);
+  EXPECT_EQ(by_triangles.verdict, Verdict::free);
+  EXPECT_EQ(found.verdict, Verdict::free);
+  EXPECT_EQ(found.t, 1.0);
+  EXPECT_LT(found.work.steps, 100U);
+  EXPECT_GT(by_triangles.work.node_groups + by_triangles.work.steps, kProofSteps);
 }
 
 TEST(HullProof, EndsWithItsBudget) {

@@ -110,7 +110,7 @@ void ContactLoop::Implementation::begin_pairs() {
                                      .far_from = detail::kFarNeighbour * least_reach()};
   for (detail::HapticMember& member : members_) {
     member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(member.shape, slack);
-    member.is_convex = detail::is_convex(member.shape, detail::kSlackOfConvex * distance_);
+    member.fills_hull = detail::fills_its_hull(member.shape, detail::kSlackOfConvex * distance_);
   }
   const auto add = [&](std::size_t other, std::size_t tool) {
     const auto is_this = [&](const std::array<std::size_t, 2>& pair) {

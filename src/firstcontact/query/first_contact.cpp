@@ -52,7 +52,8 @@ detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& par
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
   if (pair.convex_A() != nullptr && pair.convex_B() != nullptr) {
-    return detail::search_convex_pair(pair, part.begin, part.end, limits, work);
+    return detail::search_convex_pair({*pair.convex_A(), *pair.convex_B(), pair.motion()},
+                                      part.begin, part.end, limits, work);
   }
   constexpr std::uint64_t kPatience = 1u << 17;
   // More than the distance of neighbouring times; shorter windows do not separate ties.

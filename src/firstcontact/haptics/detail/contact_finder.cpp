@@ -88,7 +88,7 @@ void ContactFinder::find_features(const HapticMember& other, const PlacedShape& 
                                   double beside, BoxFront& front) {
   const double band = kContactBand * distance_;
   const bool may_front = may_have_front(other.shape, tool.shape);
-  if (may_front && other.is_convex && tool.is_convex) {
+  if (may_front && other.fills_hull && tool.fills_hull) {
     const NearPatches near = near_patches(other_at, tool_at, band);
     if (near.are_apart) {
       contacts_.clear();

@@ -22,7 +22,7 @@ struct HapticMember {
   double reach = 0.0;     ///< [m]  Reach from the centre of its bounds.
   double friction = 0.0;  ///< [-]
   std::shared_ptr<const SurfaceNeighbours> neighbours = {};
-  bool is_convex = false;  ///< Whether its triangles bound their convex hull.
+  bool fills_hull = false;  ///< Whether its triangles bound their convex hull.
 };
 
 /// Finds contacts in memory of its own.

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <firstcontact/geometry/convex_core.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -14,17 +15,20 @@ namespace firstcontact::detail {
 /// for large meshes, where looking for points of the hull takes long.
 ///
 /// @param slack  [m]  >= 0  the most by which a vertex may lie outside of a triangle's plane
-[[nodiscard]] bool is_convex(const Shape& shape, double slack);
+[[nodiscard]] bool fills_its_hull(const Shape& shape, double slack);
+
+/// The hull of a shape's vertices, from the centre of its hierarchy; refers to the shape.
+[[nodiscard]] ConvexCore hull_of(const Shape& shape);
 
 /// Finds the first contact of the convex hulls of two shapes, as first_contact() does for the
 /// shapes.
 ///
-/// What is proven for the hulls holds for the shapes in them. A contact of the hulls is one of the
-/// shapes where is_convex() holds for both, to the slacks. The work does not depend on how many
-/// triangles are near: a step takes two convex sets. So it is short where thin triangles of two
-/// cylinders cross.
+/// A shape lies in its hull, so a motion that is free for the hulls is free for the shapes. A
+/// contact of the hulls is one of the shapes where both fill their hulls, to the slacks. The work
+/// does not depend on how many triangles are near, as a step takes two convex sets. So it is short
+/// where thin triangles of two cylinders cross.
 ///
-/// @param result  receives verdict, reason, t and work; no contacts
+/// @param result  receives verdict, reason, t [-] and work; no contacts
 void first_contact_of_hulls(const MovingShape& A, const MovingShape& B,
                             const FirstContactOptions& options, FirstContactResult& result);
 

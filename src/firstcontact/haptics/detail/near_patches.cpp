@@ -10,6 +10,7 @@
 
 #include <firstcontact/geometry/convex_core.h>
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/haptics/detail/hull_proof.h>
 #include <firstcontact/narrowphase/convex_closest.h>
 
 namespace firstcontact::detail {
@@ -27,18 +28,13 @@ constexpr double kNearlyBest = 0.99;
 
 /// Finds the direction from A to B, world axes, along which their hulls are farthest apart, nearly.
 Vector3d direction_between(const PlacedShape& A, const PlacedShape& B) {
-  const auto core_of = [](const Shape& shape) {
-    const Hierarchy& hierarchy = shape.hierarchy();
-    return ConvexCore{
-        .kind = ConvexKind::hull, .points = hierarchy.vertices, .reach = hierarchy.radius};
-  };
   const Eigen::Quaterniond R_WA = A.pose().rotation.normalized();
   const Eigen::Quaterniond R_WB = B.pose().rotation.normalized();
   const Vector3d centre_A = R_WA * A.shape().hierarchy().centre;
   const Vector3d centre_B =
       (B.pose().position - A.pose().position) + R_WB * B.shape().hierarchy().centre;
-  const ConvexCore core_A = core_of(A.shape());
-  const ConvexCore core_B = core_of(B.shape());
+  const ConvexCore core_A = hull_of(A.shape());
+  const ConvexCore core_B = hull_of(B.shape());
   ConvexGuess guess;
   guess.n = (centre_B - centre_A).stableNormalized();
   return closest_points({core_A, R_WA.toRotationMatrix(), centre_A},

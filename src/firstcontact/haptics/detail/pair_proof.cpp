@@ -156,9 +156,9 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
     options.budget.deadline = deadline;
     const MovingShape A{members[other].shape, motions[other]};
     const MovingShape B{members[tool].shape, motions[tool]};
-    const bool are_convex =
-        members[other].is_convex && members[tool].is_convex && may_have_front(A.shape, B.shape);
-    if (!are_convex || !is_settled_by_hulls(A, B, options, scratch)) {
+    const bool fill_hulls =
+        members[other].fills_hull && members[tool].fills_hull && may_have_front(A.shape, B.shape);
+    if (!fill_hulls || !is_settled_by_hulls(A, B, options, scratch)) {
       search_triangles(A, B, pair, options, workspace, scratch);
     }
     if (scratch.t < proven.t) {

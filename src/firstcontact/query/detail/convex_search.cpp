@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <firstcontact/narrowphase/convex_pair.h>
 #include <firstcontact/query/detail/budget_watch.h>
 
 namespace firstcontact::detail {
@@ -13,9 +12,8 @@ constexpr std::uint64_t kStepsAtOnce = 64;
 
 }  // namespace
 
-PieceResult search_convex_pair(const MovingPair& pair, double t_begin, double t_end,
+PieceResult search_convex_pair(const ConvexPair& cores, double t_begin, double t_end,
                                const SearchLimits& limits, WorkCount& work) {
-  const ConvexPair cores{*pair.convex_A(), *pair.convex_B(), pair.motion()};
   ConvexContactOptions options{.threshold = limits.threshold,
                                .tolerance = limits.tolerance,
                                .t_begin = t_begin,
