@@ -156,13 +156,9 @@ std::vector<TreeLook> drawn_trees(const ScenePlan& plan, const std::vector<Searc
 }
 
 PathLook drawn_failure(const ScenePlan& plan, const PlanResult& result) {
-  PathLook look{.verdict = kPlanVerdictWords.at(static_cast<std::size_t>(PlanVerdict::none))};
-  look.movers = without_lines(traced_points(plan.loaded, movers_of(plan)));
-  for (const BlockingPair& blocking : result.statistics.blocked) {
-    look.blocked.push_back({{member_name(plan.loaded.scene, blocking.members[0]),
-                             member_name(plan.loaded.scene, blocking.members[1])},
-                            blocking.count});
-  }
+  PathLook look{.verdict = kPlanVerdictWords.at(static_cast<std::size_t>(PlanVerdict::none)),
+                .movers = without_lines(traced_points(plan.loaded, movers_of(plan))),
+                .blocked = blocked_by_name(plan, result.statistics)};
   if (!plan.goals.empty()) {
     look.goal = drawn_goal(plan.plan, plan.start, plan.goals.front());
   }

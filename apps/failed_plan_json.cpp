@@ -1,6 +1,5 @@
 #include "failed_plan_json.h"
 
-#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -15,11 +14,8 @@ std::string failed_plan_json(const ScenePlan& scene, const PlanResult& result) {
   using Json = nlohmann::ordered_json;
   const PlanStatistics& counts = result.statistics;
   Json blocked = Json::array();
-  for (const BlockingPair& blocking : counts.blocked) {
-    const auto name = [&](std::size_t side) {
-      return member_name(scene.loaded.scene, blocking.members.at(side));
-    };
-    blocked.push_back({{"pair", Json::array({name(0), name(1)})}, {"count", blocking.count}});
+  for (const NamedBlockingPair& blocking : blocked_by_name(scene, counts)) {
+    blocked.push_back({{"pair", blocking.pair}, {"count", blocking.count}});
   }
   const Json object{{"firstcontact_plan", 1},
                     {"verdict", "none"},

@@ -88,7 +88,7 @@ TEST(PlanTree, FindsTheNearestPlaceOfAScan) {
     RandomNumbers random(5);
     std::vector<Configuration> places{space.sample(random)};
     detail::PlanTree tree(space);
-    tree.add(places[0], detail::PlanTree::kNoParent);
+    tree.add(places[0], detail::kNoParent);
     for (int k = 1; k < 3000; ++k) {
       places.push_back(next_place(space, places, random));
       tree.add(places.back(), 0);

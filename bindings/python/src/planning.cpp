@@ -276,10 +276,8 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
     clearances.push_back(or_nan(clearance));
   }
   py::list blocked;
-  for (const BlockingPair& blocking : result.statistics.blocked) {
-    blocked.append(py::make_tuple(member_name(asked.loaded.scene, blocking.members[0]),
-                                  member_name(asked.loaded.scene, blocking.members[1]),
-                                  blocking.count));
+  for (const NamedBlockingPair& blocking : blocked_by_name(asked, result.statistics)) {
+    blocked.append(py::make_tuple(blocking.pair[0], blocking.pair[1], blocking.count));
   }
   const auto text_of_path = [&] {
     PlannedPath path = planned_path(asked, options, result);

@@ -391,6 +391,16 @@ PlanQuestion question_of_trajectory(const Scene& scene) {
   return question;
 }
 
+std::vector<NamedBlockingPair> blocked_by_name(const ScenePlan& scene,
+                                               const PlanStatistics& statistics) {
+  const auto name = [&](std::size_t member) { return member_name(scene.loaded.scene, member); };
+  std::vector<NamedBlockingPair> named;
+  for (const BlockingPair& blocking : statistics.blocked) {
+    named.push_back({{name(blocking.members[0]), name(blocking.members[1])}, blocking.count});
+  }
+  return named;
+}
+
 PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
                          const PlanResult& result) {
   if (result.path.empty()) {
@@ -449,12 +459,7 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   const PlanStatistics& counts = result.statistics;
   path.statistics = {counts.seconds,   counts.first_path_seconds, counts.iterations,
                      counts.nodes,     counts.edges_checked,      counts.states_checked,
-                     counts.undecided, counts.first_cost,         {}};
-  for (const BlockingPair& blocking : counts.blocked) {
-    path.statistics.blocked.push_back(
-        {{member_name(resting, blocking.members[0]), member_name(resting, blocking.members[1])},
-         blocking.count});
-  }
+                     counts.undecided, counts.first_cost,         blocked_by_name(scene, counts)};
   path.scene = resting;
   detail::ignore_what_rests(scene.plan, path.scene);
   path.scene.options.tolerance = options.tolerance;

@@ -58,6 +58,10 @@ FIRSTCONTACT_API void require_goals_apart(const ScenePlan& scene);
 /// @throws std::invalid_argument if there is no such robot, or its trajectory has no two points
 [[nodiscard]] FIRSTCONTACT_API PlanQuestion question_of_trajectory(const Scene& scene);
 
+/// The pairs that blocked a plan, with the names of their members; the most frequent first.
+[[nodiscard]] FIRSTCONTACT_API std::vector<NamedBlockingPair> blocked_by_name(
+    const ScenePlan& scene, const PlanStatistics& statistics);
+
 /// The contents of a path file.
 ///
 /// @param options  the options of the planner that found the path

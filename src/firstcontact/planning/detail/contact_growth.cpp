@@ -166,7 +166,7 @@ void ContactGrowth::find_passage(RandomNumbers& random) {
     return;
   }
   PlanTree tree(space);
-  const std::size_t root = tree.add(place->q, PlanTree::kNoParent);
+  const std::size_t root = tree.add(place->q, kNoParent);
   tree.mark(root);
   if (use_ == ContactUse::both) {
     Eigen::VectorXd open = Eigen::VectorXd::Zero(6);

@@ -45,17 +45,17 @@ std::optional<PassageTrees::Node> PassageTrees::draw(const ConfigurationSpace& s
 void PassageTrees::give(const Node& reached, PlanTree& tree, std::size_t at, std::size_t owner) {
   Passage& passage = passages_[reached.passage];
   passage.owner = owner;
-  passage.in_owner.assign(passage.tree.size(), PlanTree::kNoParent);
+  passage.in_owner.assign(passage.tree.size(), kNoParent);
   passage.in_owner[reached.node] = at;
   // From the node up to the root, then down: parents have lower numbers than their children.
   std::size_t below = reached.node;
-  for (std::size_t node = passage.tree.parent(below); node != PlanTree::kNoParent;
+  for (std::size_t node = passage.tree.parent(below); node != kNoParent;
        node = passage.tree.parent(node)) {
     passage.in_owner[node] = tree.add(passage.tree[node], passage.in_owner[below]);
     below = node;
   }
   for (std::size_t node = 0; node < passage.tree.size(); ++node) {
-    if (passage.in_owner[node] == PlanTree::kNoParent) {
+    if (passage.in_owner[node] == kNoParent) {
       passage.in_owner[node] =
           tree.add(passage.tree[node], passage.in_owner[passage.tree.parent(node)]);
     }

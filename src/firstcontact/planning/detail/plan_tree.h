@@ -35,8 +35,6 @@ inline constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max()
 /// Places, each with an edge from its parent that is proven. Refers to the space.
 class PlanTree {
  public:
-  static constexpr std::size_t kNoParent = detail::kNoParent;
-
   explicit PlanTree(const ConfigurationSpace& space) : space_(&space) {}
 
   /// Adds a place and returns its number.

@@ -35,9 +35,9 @@ class Connect {
 
   FoundPath run(const Configuration& start, const std::vector<Configuration>& goals,
                 RandomNumbers& random) {
-    trees_[0].mark(trees_[0].add(start, PlanTree::kNoParent));
+    trees_[0].mark(trees_[0].add(start, kNoParent));
     for (const Configuration& goal : goals) {
-      trees_[1].mark(trees_[1].add(goal, PlanTree::kNoParent));
+      trees_[1].mark(trees_[1].add(goal, kNoParent));
     }
     for (std::size_t goal = 0; goal < goals.size() && !work_.is_over(); ++goal) {
       if (work_.is_free(start, goals[goal])) {
