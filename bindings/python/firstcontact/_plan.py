@@ -25,12 +25,13 @@ def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None =
     The same path as the tool's ``firstcontact plan``. scene: with ``"plan"``: what moves, from
     where, to where. planner: ``rrt_connect`` or ``lazy_prm_star``; contacts: motion in contact of
     ``rrt_connect`` where an edge is blocked: ``none``, ``sample``, ``slide`` or ``both``; seed: of
-    the random numbers, a whole number below 2**53; time: [s] at most; margin, tolerance: [m];
-    each replaces the scene's. progress: called from time to time with the seconds that have passed,
-    the number of configurations in the trees, and the length of the best path or None. shortcuts: tries to shorten the path. approximate: without a path, one that ends as near to a
-    goal as was reached. threads: at most, of the proof; 0 for one on each core; the path does not
-    depend on it. stop: ends the search with the best path so far. Other threads run meanwhile.
-    Ctrl-C raises KeyboardInterrupt.
+    the random numbers, a whole number below 2**53; time: [s] at most; margin, tolerance: [m]; each
+    replaces the scene's. progress: called from time to time with the seconds that have passed, the
+    number of configurations in the trees, and the length of the best path or None. shortcuts: tries
+    to shorten the path. approximate: without a path, one that ends as near to a goal as was
+    reached. threads: at most, of the proof; 0 for one on each core; the path does not depend on it.
+    stop: ends the search with the best path so far. Other threads run meanwhile. Ctrl-C raises
+    KeyboardInterrupt.
 
     ValueError where a start or all goals are not free, with the pair, its depth and the nearest free
     place that was found.

@@ -35,12 +35,13 @@ def retime(path: PathOfRobots, *, mode: str = "stop", limits: JointLimits | None
     time. limits: MoveIt's file of joint limits, or what it has of each joint as a dict. Joints of
     several robots are ROBOT/NAME. max_velocity, max_acceleration, max_jerk: [rad or m; per s, s^2,
     s^3] of joints that have no other limit. velocity_scaling, acceleration_scaling: factors of all
-    limits, in (0, 1], as a PlanningRequest of MoveIt has them. tracking_error: [rad or m] of the controller, of every
-    joint, in place of the scene's. tolerance: [m] in place of the scene's. blend_deviation:
-    [rad or m] how far each joint may leave the path in ``blend`` and ``time_optimal``; by default
-    as far as blends gain time. which: the robot, in a scene with several. lenient: as load_scene. threads: at most; 0 for one on each core; the answer
-    does not depend on it. stop: ends the work, with an undecided answer. Other threads run
-    meanwhile. Ctrl-C raises KeyboardInterrupt.
+    limits, in (0, 1], as a PlanningRequest of MoveIt has them. tracking_error: [rad or m] of the
+    controller, of every joint, in place of the scene's. tolerance: [m] in place of the scene's.
+    blend_deviation: [rad or m] how far each joint may leave the path in ``blend`` and
+    ``time_optimal``; by default as far as blends gain time. which: the robot, in a scene with
+    several. lenient: as load_scene. threads: at most; 0 for one on each core; the answer does not
+    depend on it. stop: ends the work, with an undecided answer. Other threads run meanwhile. Ctrl-C
+    raises KeyboardInterrupt.
 
     ValueError where a path, a limit or an option cannot be used; it names the field. A motion that
     is not proven is no error: the answer has the pair and the time in place of the trajectory.
