@@ -215,6 +215,8 @@ class OmplStates {
   bool is_wrapped_ = false;
 };
 
+namespace detail {
+
 /// Whether the only coordinates are those of a planar joint, in their order.
 inline bool is_planar(const ConfigurationSpace& places) {
   const auto coordinates = places.coordinates();
@@ -229,6 +231,8 @@ inline bool is_planar(const ConfigurationSpace& places) {
   }
   return places.model().joints()[joint].type == JointType::planar && coordinates[2].turns_short;
 }
+
+}  // namespace detail
 
 /// The OMPL space of a space here, with its box or its limits as bounds: neighbouring joints with a
 /// long way share one RealVectorStateSpace, and a planar joint alone has an SE2StateSpace.
@@ -245,7 +249,7 @@ inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& place
     return space;
   }
   const auto coordinates = places.coordinates();
-  if (is_planar(places)) {
+  if (detail::is_planar(places)) {
     auto plane = std::make_shared<ompl::base::SE2StateSpace>();
     ompl::base::RealVectorBounds bounds(2);
     for (unsigned int k = 0; k < 2; ++k) {

@@ -158,7 +158,10 @@ class SceneBuilder {
   /// Gives joints of a request's group that its goal does not name a goal where they start. So a
   /// plan may move them.
   void keep_the_rest_of_the_group(const SceneRobot& robot) {
-    for (const std::string& name : question_.plans ? group_ : std::vector<std::string>()) {
+    if (!question_.plans) {
+      return;
+    }
+    for (const std::string& name : group_) {
       const auto found = robot.state.find(name);
       const Joint& joint = robot.model.joints()[find_coordinate(robot.model, name).joint];
       goal_->try_emplace(name,

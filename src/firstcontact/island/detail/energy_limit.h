@@ -24,8 +24,9 @@ struct IslandState;
 
 /// Whether motors without bound squeeze bodies out much faster than they want to move links.
 ///
-/// The laws of contacts permit that where a wedge closes by next to nothing. Such motors yield, as
-/// where contacts have no solution.
+/// The laws of contacts permit that where a wedge closes slowly. Such motors yield, as where
+/// contacts have no solution. Much faster means: the root of the energy is kMostSqueeze times as
+/// large as before, plus that of all bodies at the speed of the motors' targets.
 ///
 /// @param free  [J]  energy before; if nothing, that of the problem's velocities
 [[nodiscard]] bool squeezes_out(const IslandState& state, const ContactProblem& problem,

@@ -49,7 +49,7 @@ class Island {
       impact();
     }
     while (state_.reached < state_.start.h) {
-      if (is_torn_) {
+      if (is_stuck_) {
         track_.crushed = state_.reached;
         track_.crushing = scripts_.crushing();
         break;
@@ -67,7 +67,7 @@ class Island {
       if (!t) {
         return std::nullopt;
       }
-      if (is_torn_) {
+      if (is_stuck_) {
         continue;
       }
       if (*t < 1.0 && !(scripts_.try_again() && is_jammed())) {
@@ -205,12 +205,12 @@ class Island {
     ImpactSearch search(state_, planned_, workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
-      if ((plan.tears_ties || !plan.finds_ties) && planned_ > kLeastShareOfTied * state_.start.h) {
+      if ((plan.is_refused || !plan.finds_ties) && planned_ > kLeastShareOfTied * state_.start.h) {
         planned_ *= 0.5;
         return advance();
       }
-      if (plan.tears_ties) {
-        is_torn_ = true;
+      if (plan.is_refused) {
+        is_stuck_ = true;
         return 0.0;
       }
       const std::vector<Impact> hits = search.find(plan);
@@ -387,7 +387,7 @@ class Island {
     state_.robots.add_drives_at_impact(problem);
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
     if (!is_finite(solution)) {
-      is_torn_ = true;
+      is_stuck_ = true;
       return;
     }
     const PlanSolution impact{solution, !is_solved(state_, solution)};
@@ -421,7 +421,7 @@ class Island {
   double planned_ = 0.0;      // [s]  Span of the plan.
   std::size_t squeezed_ = 0;  // Number of impacts that left a pair squeezed.
   std::size_t crushed_ = 0;   // Number of plans with impacts whose contacts have no solution.
-  bool is_torn_ = false;      // Whether no plan holds the ties, or no motion is finite.
+  bool is_stuck_ = false;     // Whether no plan may be followed, however short.
   MetScripts scripts_ = {};
 };
 

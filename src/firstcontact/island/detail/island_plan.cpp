@@ -318,7 +318,7 @@ Plan IslandPlanner::plan() {
   const std::vector<bool> by_end = led_by_end();
   Plan made = plan_of_bodies(by_end);
   if (!is_finite(solution)) {
-    made.tears_ties = true;
+    made.is_refused = true;
     return made;
   }
   made.finds_ties = finds_ties;
@@ -332,7 +332,7 @@ Plan IslandPlanner::plan() {
   shift_robots(made);
   state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
   if (leads_nowhere(made)) {
-    made.tears_ties = true;
+    made.is_refused = true;
   } else {
     settle(outer, made);
   }

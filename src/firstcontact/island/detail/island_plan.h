@@ -79,7 +79,8 @@ struct Plan {
   /// Whether forces of ties were found that keep the energy which they do not take. A shorter plan
   /// may have such forces.
   bool finds_ties = true;
-  bool tears_ties = false;  ///< Whether joints are apart where it ends, or a motion is not finite.
+  /// Whether it may not be followed: joints are apart where it ends, or a motion is not finite.
+  bool is_refused = false;
 
   [[nodiscard]] bool keeps_contacts() const { return is_solved && !is_limited; }
 };

@@ -273,12 +273,12 @@ void IslandPlanner::settle(const std::vector<OuterImpulse>& outer, Plan& made) {
   carry_back(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
-  made.tears_ties = leads_nowhere(made);
+  made.is_refused = leads_nowhere(made);
   if (!state_.ties.empty()) {
-    made.tears_ties = made.tears_ties || tears_ties(state_, made, span_);
+    made.is_refused = made.is_refused || tears_ties(state_, made, span_);
     made.finds_ties =
         made.finds_ties &&
-        (made.tears_ties || keeps_tied_energy(state_, made, last_->velocities, span_));
+        (made.is_refused || keeps_tied_energy(state_, made, last_->velocities, span_));
   }
 }
 

@@ -157,16 +157,15 @@ bool is_heap(const IslandState& state, std::size_t contacts) {
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
   const bool is_of_many = has_many(state, problem.contacts.size());
-  ProjectionOptions options{.tolerance = exact_tolerance(state)};
-  if (!is_of_many) {
-    options.rounds = kRoundsOfMany;
-  }
   const bool is_large = is_of_many || problem.contacts.size() >= kManyContactsOfIsland;
-  if (!is_large || stands(state)) {
-    return options;
+  if (is_of_many && stands(state)) {  // As many rounds as it takes.
+    return {.tolerance = exact_tolerance(state)};
   }
-  options.tolerance = of_gravity(state, kHeapTolerance);
-  options.rounds = kRoundsOfMany;
+  if (!is_large || stands(state)) {
+    return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
+  }
+  ProjectionOptions options{.tolerance = of_gravity(state, kHeapTolerance),
+                            .rounds = kRoundsOfMany};
   if (is_of_many) {
     options.enough = of_gravity(state, kHeapEnough);
     options.sweeps = kHeapSweeps;

@@ -336,7 +336,7 @@ inline constexpr double kUnsolved = 1e-2;
 inline constexpr double kUnsolvedOfSpeed = 1e-9;
 
 /// [-]  Motors without bound also yield where bodies would be faster than before, and than these
-/// motors want to move links, by this factor. Larger: a wedge that hardly closes shoots them out.
+/// motors want to move links, by this factor. Larger: a wedge that closes slowly shoots them out.
 inline constexpr double kMostSqueeze = 10.0;
 /// [-]  Motors without bound yield by this part of the effect of impulses on their coordinates,
 /// where a problem has no solution otherwise. Smaller: they press harder on an obstacle.
