@@ -22,6 +22,7 @@ struct Drift {
   double moved = 0.0;      ///< [m]  Greatest displacement of a centre of mass.
   double turned = 0.0;     ///< [rad]
   double time_lost = 0.0;  ///< [s]
+  bool all_sleep = true;   ///< Whether all bodies that can move sleep at the end.
 };
 
 /// Simulates for a duration [s], and verifies the run.
@@ -33,6 +34,9 @@ inline Drift drift(Simulator& simulator, double duration) {
   Drift drift;
   for (const RunStep& step : steps) {
     drift.time_lost += step.time_lost;
+  }
+  for (const RunBody& body : steps.back().bodies) {
+    drift.all_sleep = drift.all_sleep && body.rests;
   }
   for (std::size_t b = 0; b < begin.size(); ++b) {
     const Pose& from = begin[b].X_WB;

@@ -383,6 +383,14 @@ TEST(SimulationCampaign, SoDoesEveryRunWithARobot) {
   campaign.print(seeds.count);
 }
 
+// This scene once exceeded the bound of the energy.
+TEST(SimulationCampaign, ASceneThatBrokeItsBoundKeepsIt) {
+  Campaign campaign;
+  const RobotFile urdf;
+  campaign.check(300282, Draw(300282).scene());
+  campaign.check(300282, Draw(300282).scene_with_robot(urdf.path()));
+}
+
 // A light root that turns fast carries heavy links far out by joints of six coordinates: the same
 // numbers mean another motion after a tenth of a radian. One gained 18 % of its energy in a step.
 TEST(SimulationCampaign, LinksThatFloatOnATurningOneGainNothing) {

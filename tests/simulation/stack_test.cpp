@@ -15,14 +15,14 @@ namespace {
 // --- Blocks --------------------------------------------------------------------------------------
 
 /// Blocks on top of each other, each that much farther along x than the one below.
-Simulator stack(int count, double shift) {
+Simulator stack(int count, double shift, double step = 0.01) {
   std::string bodies = kFloor;
   for (int k = 0; k < count; ++k) {
     bodies += "," + body("block " + std::to_string(k), box("[0.2, 0.2, 0.1]"),
                          numbers({k * shift, 0.0, 0.05 + kGap + k * (0.1 + kGap)}),
                          R"(, "dynamics": {})");
   }
-  return simulator(bodies, settings(0.01, 0.5, kGap));
+  return simulator(bodies, settings(step, 0.5, kGap));
 }
 
 TEST(Stack, OfFiveBlocksStands) {
@@ -38,8 +38,12 @@ TEST(Stack, OfTenBlocksStands) {
 // From 30 blocks on there are more than 120 contacts.
 TEST(Stack, OfManyBlocksStandsAsFewDo) {
   for (const int count : {29, 31, 60, 100}) {
-    Simulator s = stack(count, 0.0);
-    expect_rest(drift(s, 1.0));
+    for (const double step : {0.002, 0.01}) {
+      Simulator s = stack(count, 0.0, step);
+      const Drift found = drift(s, 1.0);
+      expect_rest(found);
+      EXPECT_TRUE(found.all_sleep) << count << " blocks, " << step << " s";
+    }
   }
 }
 
@@ -113,15 +117,37 @@ TEST(Cards, TentFallsWithLessFrictionThanItLeans) {
   EXPECT_GE(drift(smooth, 0.4).moved, 1e-3);
 }
 
-TEST(Cards, HouseOfTwoStoreysStands) {
+/// A house of cards: each storey has a tent less than the one below, on ceilings of one card.
+Simulator house(int storeys, double step) {
   const double apart = kLong * std::sin(kLean) + kThick + 1e-3;
-  const std::string ceiling = "," + body("ceiling", box(numbers({kLong, kWide, kThick})),
-                                         numbers({0.0, 0.0, kTentHeight + kGap + 0.5 * kThick}),
-                                         R"(, "dynamics": {"density": 700})");
-  Simulator s = simulator(kFloor + tent("a", -apart, 0.0) + tent("b", apart, 0.0) + ceiling +
-                              tent("c", 0.0, kTentHeight + kGap + kThick),
-                          settings(0.005, 0.7, kGap));
-  expect_rest(drift(s, 2.0));
+  const std::string card = box(numbers({2.0 * apart - 1e-3, kWide, kThick}));
+  std::string bodies = kFloor;
+  double foot = 0.0;
+  for (int tents = storeys; tents > 0; --tents) {
+    const std::string storey = std::to_string(storeys - tents);
+    for (int k = 0; k < tents; ++k) {
+      bodies += tent("tent " + storey + " " + std::to_string(k), (2 * k - tents + 1) * apart, foot);
+    }
+    foot += kTentHeight + kGap + kThick;
+    for (int k = 0; k + 1 < tents; ++k) {
+      bodies += "," + body("ceiling " + storey + " " + std::to_string(k), card,
+                           numbers({(2 * k - tents + 2) * apart, 0.0, foot - 0.5 * kThick}),
+                           R"(, "dynamics": {"density": 700})");
+    }
+  }
+  return simulator(bodies, settings(step, 0.7, kGap));
+}
+
+TEST(Cards, HousesStandAndSleepAtAnyStep) {
+  for (const int storeys : {2, 3, 4}) {
+    for (const double step : {0.001, 0.002, 0.005, 0.01}) {
+      SCOPED_TRACE(std::to_string(storeys) + " storeys, " + std::to_string(step) + " s");
+      Simulator s = house(storeys, step);
+      const Drift found = drift(s, 1.0);
+      expect_rest(found);
+      EXPECT_TRUE(found.all_sleep);
+    }
+  }
 }
 
 }  // namespace
