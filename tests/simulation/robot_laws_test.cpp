@@ -126,11 +126,14 @@ std::vector<LawCase> law_cases() {
   cases.push_back({.name = "motor of torque 0",
                    .dynamics = R"("base": "fixed", "motors": {"j2": {"torque": 0}})"});
   cases.push_back({.name = "slight damping", .first = slight, .second = slight});
-  cases.push_back({.name = "damping",
-                   .first = damping,
-                   .second = damping,
-                   .torques = damped(0.05),
-                   .greatest = 5e-4});
+  for (const double d : {0.05, 0.5}) {
+    const std::string dampers = "<dynamics damping=\"" + number_text(d) + "\"/>";
+    cases.push_back({.name = "damping " + number_text(d),
+                     .first = dampers,
+                     .second = dampers,
+                     .torques = damped(d),
+                     .greatest = 2e-6});
+  }
   cases.push_back({.name = "torque over time",
                    .dynamics = R"("base": "fixed", "motors": {"j1": {"torque": [[0, 0], [4, 2]]}})",
                    .torques = [](double t, const Swing&) -> Vector2d {
@@ -302,7 +305,7 @@ TEST_F(RobotLaws, StiffSpringsAreStable) {
 
 // A damper alone: v = exp(-d t / m), at any step.
 TEST_F(RobotLaws, DampersDecayExactly) {
-  for (const double damping : {0.5, 50.0, 5000.0}) {
+  for (const double damping : {0.5, 5.0, 49.0, 50.0, 51.0, 5000.0}) {
     const std::string urdf =
         "<link name=\"base\"/>" + massive("sled", 1.0, "0 0 0", {0.01, 0.01, 0.01}) +
         connected("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",

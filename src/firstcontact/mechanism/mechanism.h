@@ -69,6 +69,8 @@ struct MechanismDrive {
   /// Coordinates whose velocity changes at a given rate, by the forces that this needs.
   std::vector<Eigen::Index> driven = {};
   Eigen::VectorXd accelerations = {};  ///< (driven)  [rad/s^2 or m/s^2]  Constant.
+  /// (size)  [N m s/rad or N s/m]  Forces of this times the velocity oppose it; empty for none.
+  Eigen::VectorXd damping = {};
 };
 
 /// The end of a motion under forces.
@@ -186,6 +188,7 @@ class FIRSTCONTACT_API Mechanism {
   void require_inertias() const;
   class Flight;
 
+  [[nodiscard]] double decay(const MechanismState& state, const Eigen::VectorXd& damping) const;
   [[nodiscard]] Eigen::VectorXd rates(const Eigen::VectorXd& displacement,
                                       const Eigen::VectorXd& velocities) const;
   void place(const MechanismState& state, std::size_t link, MechanismInstant& instant) const;

@@ -28,6 +28,8 @@ constexpr double kSubStep = 0.05;  // [rad or m]
 constexpr int kMostSubSteps = 4096;
 /// The most by which it moves where accelerations change within the sub-step.
 constexpr double kMostWay = 2.0 * kSubStep;  // [rad or m]
+/// [-]  The most by which dampers slow a velocity in a sub-step: damping / mass times the sub-step.
+constexpr double kMostDecay = 0.03;
 /// [-]  The most by which both accelerations halfway, times the sub-step, differ, as a fraction of
 /// the velocity, in the norm of the energy.
 constexpr double kMostApart = 1e-3;
@@ -128,6 +130,9 @@ class Mechanism::Flight {
     if (drive_.forces.size() > 0) {
       forces += drive_.forces;
     }
+    if (drive_.damping.size() > 0) {
+      forces -= drive_.damping.cwiseProduct(state.velocities);
+    }
     MatrixXd M = mechanism_.mass_matrix(instant);
     Response found = respond(M, forces, drive_.driven, drive_.accelerations);
     found.M = std::move(M);
@@ -175,6 +180,15 @@ class Mechanism::Flight {
   int halved_ = 0;
 };
 
+/// [1/s]  A bound of the rates of decay by dampers: the sum of damping / mass.
+double Mechanism::decay(const MechanismState& state, const VectorXd& damping) const {
+  if (damping.size() == 0) {
+    return 0.0;
+  }
+  const MatrixXd dampers = damping.asDiagonal();
+  return solve_mass(mass_matrix(at(state)), dampers).trace();
+}
+
 MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, const Vector3d& gravity,
                                                const MechanismDrive& drive, double dt) const {
   VectorXd fastest = state.velocities.cwiseAbs();
@@ -184,8 +198,9 @@ MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, cons
     fastest[drive.driven[k]] = std::max(fastest[drive.driven[k]], std::abs(end));
   }
   const double way = dt * (fastest.size() > 0 ? fastest.maxCoeff() : 0.0);
-  const int count = static_cast<int>(
-      std::clamp(std::ceil(way / kSubStep), 1.0, static_cast<double>(kMostSubSteps)));
+  const double parts = std::max(way / kSubStep, dt * decay(state, drive.damping) / kMostDecay);
+  const int count =
+      static_cast<int>(std::clamp(std::ceil(parts), 1.0, static_cast<double>(kMostSubSteps)));
   MechanismMotion motion{state, VectorXd::Zero(static_cast<Index>(drive.driven.size()))};
   Flight flight(*this, gravity, drive, motion);
   for (int k = 0; k < count; ++k) {

@@ -29,7 +29,7 @@ struct Part {
   bool is_rest = false;  // Whether it follows a part that ended where scripts begin to crush.
 
   [[nodiscard]] bool can_end_at(double time) const {
-    return is_whole && time > kLostOfStep * length && time < length;
+    return is_whole && time > kLeastBeforeWait * length && time < length;
   }
   [[nodiscard]] Part rest(double whole) const {
     return {is_rest ? 0.0 : whole - length, false, true};

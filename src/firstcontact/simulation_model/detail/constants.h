@@ -134,8 +134,11 @@ inline constexpr std::size_t kMostEventsAgain = 20;
 inline constexpr double kSlippery = 0.3;
 /// [solutions]  Most such solutions in a step. Larger: a jam takes longer.
 inline constexpr std::size_t kMostSlips = 8;
-/// [-]  A step is lost if it lasted less than this part of its lost time.
-inline constexpr double kLostOfStep = 1e-2;
+/// [-]  A step is lost if it lasted less than this part of its lost time. Smaller: a jam takes
+/// longer to be known.
+inline constexpr double kLostOfStep = 0.1;
+/// [-]  Least part of a step after which a script begins to wait.
+inline constexpr double kLeastBeforeWait = 1e-2;
 /// [-]  Duration of a stall, by the step.
 inline constexpr double kStallOfStep = 1e-9;
 
@@ -252,6 +255,9 @@ inline constexpr double kMostBeyondLimit = 1e-3;
 /// Smaller: contacts answer that motion with velocities.
 inline constexpr double kSpanOfDrift = 0.1;
 
+/// [-]  Flights follow the dampers of joints if span damping / mass is no more than this. Larger:
+/// flights take more parts.
+inline constexpr double kFollowedDecay = 0.5;
 /// [rad]  Springs that swing by more in a span are damped.
 inline constexpr double kGreatestPhase = 1.0;
 

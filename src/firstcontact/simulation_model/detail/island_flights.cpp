@@ -35,10 +35,10 @@ PositionRule rule_of(const std::vector<JointLaw>& laws, const MechanismState& st
 /// The action of drives over a flight.
 ///
 /// Drives that reach their targets have them at the end, whatever forces that takes. The others act
-/// with constant forces.
+/// with constant forces, but for the dampers that the flight follows.
 MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vector<double>& impulses,
-                         const VectorXd& velocities, double span) {
-  MechanismDrive drive{.forces = VectorXd::Zero(velocities.size())};
+                         const VectorXd& followed, const VectorXd& velocities, double span) {
+  MechanismDrive drive{.forces = VectorXd::Zero(velocities.size()), .damping = followed};
   std::vector<double> accelerations;
   for (std::size_t k = 0; k < drives.size(); ++k) {
     const auto c = static_cast<Eigen::Index>(drives[k].coordinate);
@@ -53,6 +53,12 @@ MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vecto
   drive.accelerations = Eigen::Map<const VectorXd>(accelerations.data(),
                                                    static_cast<Eigen::Index>(accelerations.size()));
   return drive;
+}
+
+/// Whether a drive is a damper that flights follow: no spring is beside such a damper.
+bool is_followed(const JointDrive& drive, const VectorXd& followed) {
+  return drive.compliance > 0.0 && followed.size() > 0 &&
+         followed[static_cast<Eigen::Index>(drive.coordinate)] > 0.0;
 }
 
 }  // namespace
@@ -189,12 +195,18 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
     if (load.size() > 0) {
       u += h * robot.now.inverse_mass * load;
     }
-    flight.rule.weights = position_weights(laws, robot.now.inverse_mass, h);
+    const VectorXd followed = followed_damping(laws, robot.now.inverse_mass, h);
+    flight.rule.weights = position_weights(laws, robot.now.inverse_mass, followed, h);
     const MechanismState ahead{mechanism.moved(robot.state.positions, 0.5 * h * (v + u)), u};
     first = drives_by_rule(laws, robot.state,
                            rule_of(laws, robot.state, ahead, flight.rule.weights, h), span);
     flight.predicted = predicted_impulses(robot.now.inverse_mass, u, first);
-    drive = driven_by(first, flight.predicted, v, h);
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      if (is_followed(first[k], followed)) {
+        flight.predicted[k] = 0.0;
+      }
+    }
+    drive = driven_by(first, flight.predicted, followed, v, h);
   }
   const VectorXd of_drives = drive.forces;
   if (load.size() > 0) {
@@ -233,6 +245,10 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
   }
   for (std::size_t k = 0; k < flight.drives.size(); ++k) {
     JointDrive& change = flight.drives[k];
+    if (is_followed(change, drive.damping)) {
+      change.target = flight.velocities[static_cast<Eigen::Index>(change.coordinate)];
+      continue;
+    }
     const double impulse = flight.predicted[k];
     change.target -= change.compliance * impulse;
     change.least -= impulse;

@@ -316,10 +316,26 @@ bool is_rigid(const JointLaw& law) {
          !std::isfinite(greatest_impulse(law, 1.0));
 }
 
-VectorXd position_weights(const std::vector<JointLaw>& laws, const MatrixXd& inverse_mass,
+VectorXd followed_damping(const std::vector<JointLaw>& laws, const MatrixXd& inverse_mass,
                           double span) {
+  VectorXd followed = VectorXd::Zero(inverse_mass.rows());
+  double decay = 0.0;
+  for (const JointLaw& law : laws) {
+    if (law.damping > 0.0 && !(law.motor && law.motor->stiffness)) {
+      followed[law.velocity] = law.damping;
+      decay += span * law.damping * inverse_mass(law.velocity, law.velocity);
+    }
+  }
+  return decay > 0.0 && decay <= kFollowedDecay ? followed : VectorXd();
+}
+
+VectorXd position_weights(const std::vector<JointLaw>& laws, const MatrixXd& inverse_mass,
+                          const VectorXd& followed, double span) {
   VectorXd weights = VectorXd::Constant(inverse_mass.rows(), 0.5);
   for (const JointLaw& law : laws) {
+    if (followed.size() > 0 && followed[law.velocity] > 0.0) {
+      continue;
+    }
     const double mobility = inverse_mass(law.velocity, law.velocity);
     double z = span * law.damping * mobility;
     if (law.motor && law.motor->stiffness) {

@@ -66,15 +66,29 @@ struct PositionRule {
 /// @param z  span damping / mass
 [[nodiscard]] double fitted_weight(double z);
 
-/// The weights of the laws' coordinates.
+/// (size)  [N m s/rad or N s/m]  The damping of joints that flights follow; empty for none.
 ///
-/// Undamped springs have 1/2, and keep their energy. Dampers have fitted_weight(). Springs that
-/// swing by more than one radian of their phase in a span are damped, as steps cannot follow them.
+/// Flights follow light dampers by their rule of fourth order. The sum of span damping / mass over
+/// them bounds the rates of decay, and is at most kFollowedDecay. The dampers of joints with
+/// springs belong to the rule of the springs.
 ///
 /// @param inverse_mass  inverse mass matrix of the mechanism
 /// @param span          [s]
-[[nodiscard]] Eigen::VectorXd position_weights(const std::vector<JointLaw>& laws,
+[[nodiscard]] Eigen::VectorXd followed_damping(const std::vector<JointLaw>& laws,
                                                const Eigen::MatrixXd& inverse_mass, double span);
+
+/// The weights of the laws' coordinates.
+///
+/// Undamped springs have 1/2, and keep their energy. So have dampers that flights follow. Other
+/// dampers have fitted_weight(). Springs that swing by more than one radian of their phase in a
+/// span are damped, as steps cannot follow them.
+///
+/// @param inverse_mass  inverse mass matrix of the mechanism
+/// @param followed      result of followed_damping()
+/// @param span          [s]
+[[nodiscard]] Eigen::VectorXd position_weights(const std::vector<JointLaw>& laws,
+                                               const Eigen::MatrixXd& inverse_mass,
+                                               const Eigen::VectorXd& followed, double span);
 
 /// The drives of a span by the rule: those of motors come first, in the order of laws.
 ///
