@@ -205,7 +205,8 @@ class Island {
     ImpactSearch search(state_, planned_, workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
-      if ((plan.is_refused || !plan.finds_ties) && planned_ > kLeastShareOfTied * state_.start.h) {
+      if ((plan.is_refused || !plan.finds_ties || !plan.keeps_energy) &&
+          planned_ > kLeastShareOfTied * state_.start.h) {
         planned_ *= 0.5;
         return advance();
       }

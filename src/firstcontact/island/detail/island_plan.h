@@ -79,6 +79,7 @@ struct Plan {
   /// Whether forces of ties were found that keep the energy which they do not take. A shorter plan
   /// may have such forces.
   bool finds_ties = true;
+  bool keeps_energy = true;  ///< Whether contacts add no energy; in a shorter plan they add less.
   /// Whether it may not be followed: joints are apart where it ends, or a motion is not finite.
   bool is_refused = false;
 

@@ -291,6 +291,11 @@ inline constexpr double kFarthestOfGap = 20.0;
 inline constexpr std::size_t kMostTautEvents = 20;
 /// [rad]  Greatest turn of bodies with ties in a plan.
 inline constexpr double kMostTurnOfTied = 0.25;
+/// [rad]  Where a body turns by more in a plan, the energy at the end of the plan is looked at.
+inline constexpr double kTurnOfEnergy = 0.05;
+/// [-]  Greatest gain of energy in a step of bodies in contact that turn, by their kinetic energy.
+/// Where it would be exceeded, plans become shorter.
+inline constexpr double kEnergyOfTurning = 1e-4;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
 /// energy. Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTied = 1e-3;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -103,6 +104,9 @@ class PairLaws {
   [[nodiscard]] double restitution(const BodyPair& pair) const;
   /// [m/s]  The velocity at which the surface of a body runs along it; axes of the body frame.
   [[nodiscard]] const Eigen::Vector3d& belt(std::size_t body) const { return belts_[body]; }
+  [[nodiscard]] bool has_belts() const {
+    return std::ranges::any_of(belts_, [](const Eigen::Vector3d& belt) { return belt.any(); });
+  }
 
   /// Changes the given values of a body's surface.
   void set_surface(std::size_t body, const Surface& surface);

@@ -1,11 +1,12 @@
 /// @file
-/// The energy over a plan of an island on which only ties act.
+/// The energy of an island over a plan.
 
 #pragma once
 
 namespace firstcontact {
+struct ContactProblem;
 struct ContactSolution;
-}
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 
@@ -19,5 +20,13 @@ struct Plan;
 /// plan and would give or take some.
 [[nodiscard]] bool keeps_tied_energy(const IslandState& state, const Plan& plan,
                                      const ContactSolution& solution, double span);
+
+/// Whether contacts add no energy over a plan, to the precision of plans. True where ties, forces,
+/// robots, belts or scripts may add some.
+///
+/// Solutions add none. But a body that turns by half a radian in a plan ends elsewhere than its
+/// contacts were solved.
+[[nodiscard]] bool contacts_add_no_energy(const IslandState& state, const Plan& plan,
+                                          const ContactProblem& problem, double span);
 
 }  // namespace firstcontact::detail

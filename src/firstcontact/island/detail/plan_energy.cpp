@@ -1,4 +1,4 @@
-#include <firstcontact/island/detail/tied_energy.h>
+#include <firstcontact/island/detail/plan_energy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +36,29 @@ bool is_conservative(const IslandState& state, const Plan& plan, const ContactSo
          });
 }
 
+/// Whether a body turns so far in a plan that the solution alone does not limit the energy.
+bool turns_far(const IslandState& state, double span) {
+  return std::ranges::any_of(state.states, [&](const RigidState& moving) {
+    return span * moving.w_WB.norm() > kTurnOfEnergy;
+  });
+}
+
+/// Whether only gravity acts, and contacts with each other or with what stands still.
+bool is_passive(const IslandState& state, const ContactProblem& problem) {
+  const auto has_forces = [&](std::size_t body) {
+    return !state.model.bodies[body].forces.empty();
+  };
+  const auto is_moved = [&](std::size_t place) {
+    return place >= state.size() &&
+           (problem.bodies[place].v.any() || problem.bodies[place].w.any());
+  };
+  return state.ties.empty() && state.robots.empty() && !state.model.laws.has_belts() &&
+         std::ranges::none_of(state.members, has_forces) &&
+         std::ranges::none_of(problem.contacts, [&](const ContactPoint& contact) {
+           return std::ranges::any_of(contact.bodies, is_moved);
+         });
+}
+
 void add(const IslandState& state, const SimBody& body, const RigidState& moving, Energy& energy) {
   const Vector3d& g = state.model.gravity;
   energy.kinetic += kinetic_energy(body.inertia, moving);
@@ -70,6 +93,22 @@ bool keeps_tied_energy(const IslandState& state, const Plan& plan, const Contact
   const double change = end.kinetic + end.potential - now.kinetic - now.potential;
   const double most = kEnergyOfTied * std::max(now.kinetic, end.kinetic) + now.slack;
   return std::abs(change) <= span / state.start.h * most;
+}
+
+bool contacts_add_no_energy(const IslandState& state, const Plan& plan,
+                            const ContactProblem& problem, double span) {
+  if (problem.contacts.empty() || !turns_far(state, span) || !is_passive(state, problem)) {
+    return true;
+  }
+  Energy now;
+  Energy end;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    add(state, state.member(k), state.states[k], now);
+    add(state, state.member(k), state_ahead(state, plan, k, 1.0), end);
+  }
+  const double gain = end.kinetic + end.potential - now.kinetic - now.potential;
+  const double lift = static_cast<double>(state.size()) * now.slack;
+  return gain <= span / state.start.h * kEnergyOfTurning * now.kinetic + lift;
 }
 
 }  // namespace firstcontact::detail
