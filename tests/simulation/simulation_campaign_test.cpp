@@ -407,6 +407,14 @@ TEST(SimulationCampaign, LinksThatFloatOnATurningOneGainNothing) {
   }
 }
 
+// Damped joints were placed where their rule leads, and that pushed a joint beyond its limit: each
+// plan ended there before it had begun.
+TEST(SimulationCampaign, PlacedJointsLeadNoOtherBeyondItsLimits) {
+  Campaign campaign;
+  const RobotFile urdf;
+  campaign.check(5052, Draw(5052).scene_with_robot(urdf.path()));
+}
+
 // What led a link back to its distance from the ground took a joint beyond its limit, and each plan
 // ended there before it had begun.
 TEST(SimulationCampaign, PushesApartStopAtJointLimits) {

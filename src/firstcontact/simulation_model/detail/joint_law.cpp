@@ -413,6 +413,17 @@ std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
   return drives;
 }
 
+double room_within_limits(const JointLaw& law, double begin, double q, double by) {
+  double room = by;
+  if (law.limits.upper && by > 0.0) {
+    room = std::min(room, std::max(0.0, std::max(*law.limits.upper, begin) - q));
+  }
+  if (law.limits.lower && by < 0.0) {
+    room = std::max(room, std::min(0.0, std::min(*law.limits.lower, begin) - q));
+  }
+  return room;
+}
+
 bool reaches_target(const JointDrive& drive, double impulse) {
   return drive.compliance == 0.0 && impulse > drive.least && impulse < drive.greatest;
 }

@@ -131,6 +131,14 @@ struct PlacedCoordinate {
     const std::vector<double>& impulses, const MechanismState& state, const PositionRule& rule,
     const PlanSpan& span, const Eigen::VectorXd& u);
 
+/// [rad or m]  As much of a displacement as the limits permit. A joint beyond its limit gets no
+/// farther from it.
+///
+/// @param begin  position at the begin of the span
+/// @param q      position to displace
+/// @param by     the displacement
+[[nodiscard]] double room_within_limits(const JointLaw& law, double begin, double q, double by);
+
 /// Whether a drive has a target velocity, and reaches it with an impulse within its bounds.
 [[nodiscard]] bool reaches_target(const JointDrive& drive, double impulse);
 
