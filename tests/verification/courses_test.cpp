@@ -9,10 +9,10 @@
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/separation/detail/triangles_meet.h>
 #include <firstcontact/verification/detail/coordinate_course.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 #include <firstcontact/verification/detail/robot_course.h>
-#include <firstcontact/verification/detail/triangles_meet.h>
 
 #include "scene/crane.h"
 #include "support/random.h"

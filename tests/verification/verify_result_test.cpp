@@ -65,29 +65,6 @@ TEST(VerifyResult, ProvesThatBodiesStayFree) {
   EXPECT_EQ(proven.pair_counts.tested, 1u);
 }
 
-/// A cylinder that falls on its side by a distance [m] towards a floor 0.5 m below it.
-std::string falling_cylinder(const std::string& distance) {
-  return R"({"firstcontact": 1, "bodies": [
-    {"name": "cylinder", "shape": {"cylinder": {"radius": 0.5, "length": 1}},
-     "motion": {"type": "constant_velocity", "from": {"position": [0, 0, 1.05],
-                "quaternion_wxyz": [0.8, 0.6, 0, 0]}, "translation": [0, 0, -)" +
-         distance + R"(]}},
-    {"name": "floor", "shape": {"box": {"size": [10, 10, 0.1]}}}], "options": {"tolerance": 1e-6}})";
-}
-
-// The triangles around a curved body prove that it is free, but neither a contact nor a collision.
-TEST(VerifyResult, LeavesContactsOfCurvedBodiesOpen) {
-  EXPECT_EQ(verdict_of(claims_of(falling_cylinder("0.2"))), ProofVerdict::proven);
-  const ResultClaims contact = claims_of(falling_cylinder("0.9"));
-  ASSERT_EQ(contact.verdict, Verdict::contact);
-  const ResultVerification open = verify_result(contact);
-  EXPECT_EQ(open.verdict, ProofVerdict::not_proven);
-  EXPECT_NE(open.problem.find("triangles around"), std::string::npos) << open.problem;
-  ResultClaims early = contact;  // The triangles touch there, the cylinder does not.
-  early.t = early.time = contact.t - 1e-5;
-  EXPECT_EQ(verdict_of(early), ProofVerdict::not_proven);
-}
-
 // The margin of the claim is raised after the fact.
 TEST(VerifyResult, RefutesAMarginThatWasNotKept) {
   ResultClaims claims = claims_of(fly_by("0.0999"));

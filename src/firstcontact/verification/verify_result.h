@@ -73,10 +73,7 @@ struct ResultVerification {
 /// A tolerance_used beyond the tolerance of the scene has to be one that rounding explains, by the
 /// sizes, places and speeds of the bodies. With a larger one nothing is proven.
 ///
-/// A cylinder, cone or ellipsoid is proven by the triangles around it. A clearance is proven less
-/// the distance by which these stand out. They may be too near for a claim where the curved body
-/// perhaps is not. Then the claim is not proven. They alone never refute a claim, and never prove a
-/// contact.
+/// A cylinder, cone or ellipsoid is proven as the exact convex set that it is, with its inside.
 ///
 /// Some claims are not proven again. They are the bodies, features, points, normals and count of
 /// contacts, intervals of contact and closest approaches. So are `t_upper` of undecided pairs,

@@ -19,10 +19,10 @@
 #include <firstcontact/record/run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/verification/detail/box_tree.h>
-#include <firstcontact/verification/detail/inside_solid.h>
+#include <firstcontact/separation/detail/box_tree.h>
+#include <firstcontact/separation/detail/inside_solid.h>
+#include <firstcontact/separation/detail/pair_cover.h>
 #include <firstcontact/verification/detail/near_pairs.h>
-#include <firstcontact/verification/detail/pair_cover.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/run_follower.h>
 #include <firstcontact/verification/detail/script_deviation.h>

@@ -12,8 +12,8 @@
 
 #include <firstcontact/math/interval_vector.h>
 #include <firstcontact/robot/tracking_error.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 #include <firstcontact/verification/detail/coordinate_course.h>
-#include <firstcontact/verification/detail/covered_motion.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 
 namespace firstcontact::detail {

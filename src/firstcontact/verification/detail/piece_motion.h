@@ -8,7 +8,7 @@
 #include <firstcontact/math/interval_vector.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/record/run_step.h>
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 
 namespace firstcontact::detail {
 

@@ -16,7 +16,6 @@ enum class ProofReason {
   inside,  ///< One begins inside of the other.
   perhaps_inside,
   apart,      ///< At a contact: farther apart than the margin and the tolerance.
-  enclosed,   ///< The triangles around a curved body come closer, the body perhaps does not.
   too_close,  ///< Too close for the arithmetic to distinguish from apart, or from a contact.
   work,
   stopped,

@@ -13,7 +13,7 @@
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/scene/body_motion.h>
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 
 namespace firstcontact::detail {
 

@@ -12,7 +12,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/record/run_step.h>
-#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/separation/detail/box_tree.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 #include <firstcontact/verification/detail/script_deviation.h>

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/scene/member_shapes.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
@@ -49,6 +50,15 @@ CoveredMotions shared(std::vector<RigidMotion> pieces) {
     motions.push_back(std::make_shared<const RigidMotion>(std::move(piece)));
   }
   return motions;
+}
+
+/// The core of a curved body, which its triangles only enclose.
+std::optional<RoundSet> round_core(const Shape& shape, const Eigen::Vector3d& p_GP) {
+  if (!shape.is_curved()) {
+    return std::nullopt;
+  }
+  const ConvexCore& core = shape.convex_set()->core();
+  return RoundSet{.kind = core.kind, .size = core.size, .centre = core.origin - p_GP};
 }
 
 /// The pose that loading froze when a body was taken up or put down at a time.
@@ -128,8 +138,8 @@ void SceneCourses::add_geometry(std::size_t member, const Shape& shape, const Po
   const Mesh& mesh = shape.mesh();
   for (const CourseGeometry& other : geometries_) {
     if (&other.shape.mesh() == &mesh) {
-      geometries_.push_back(
-          {member, shape, other.p_GP, other.tree, exact_transform(X_MG) * at_point(other.p_GP)});
+      geometries_.push_back({member, shape, other.p_GP, other.tree,
+                             exact_transform(X_MG) * at_point(other.p_GP), other.round});
       return;
     }
   }
@@ -138,9 +148,15 @@ void SceneCourses::add_geometry(std::size_t member, const Shape& shape, const Po
     box.extend(vertex);
   }
   const Eigen::Vector3d p_GP = 0.5 * box.min() + 0.5 * box.max();
-  geometries_.push_back({member, shape, p_GP,
-                         std::make_shared<const BoxTree>(build_box_tree(mesh, p_GP)),
-                         exact_transform(X_MG) * at_point(p_GP)});
+  BoxTree tree = build_box_tree(mesh, p_GP);
+  const std::optional<RoundSet> round = round_core(shape, p_GP);
+  if (round) {
+    tree.nodes.resize(1);
+    tree.nodes.front().is_leaf = true;
+    tree.triangles.clear();
+  }
+  geometries_.push_back({member, shape, p_GP, std::make_shared<const BoxTree>(std::move(tree)),
+                         exact_transform(X_MG) * at_point(p_GP), round});
 }
 
 void SceneCourses::attach_bodies() {

@@ -14,8 +14,9 @@
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/verification/detail/box_tree.h>
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/box_tree.h>
+#include <firstcontact/separation/detail/convex_parts.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 #include <firstcontact/verification/detail/robot_course.h>
 #include <firstcontact/verification/detail/tested_pairs.h>
 
@@ -26,8 +27,9 @@ struct CourseGeometry {
   std::size_t member = 0;
   Shape shape;
   Eigen::Vector3d p_GP = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
-  std::shared_ptr<const BoxTree> tree;
-  IntervalTransform X_MP;  ///< Pivot in the frame of the member.
+  std::shared_ptr<const BoxTree> tree;  ///< Of a curved body: one box, without triangles.
+  IntervalTransform X_MP;               ///< Pivot in the frame of the member.
+  std::optional<RoundSet> round = {};   ///< The exact core of a curved body.
 };
 
 /// The courses of all members. Refers to the scene, which must outlive it.

@@ -8,9 +8,10 @@
 #include <memory>
 #include <utility>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/parallel/parallel_for.h>
-#include <firstcontact/verification/detail/inside_solid.h>
+#include <firstcontact/separation/detail/inside_solid.h>
 #include <firstcontact/verification/detail/near_pairs.h>
 #include <firstcontact/verification/detail/scene_courses.h>
 
@@ -43,14 +44,6 @@ std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
     result.push_back(motion.get());
   }
   return result;
-}
-
-/// [m]  The most by which the triangles around two curved bodies may be nearer than the bodies.
-double enclosure(const CourseGeometry& A, const CourseGeometry& B) {
-  const auto of = [](const Shape& shape) {
-    return shape.is_curved() ? shape.enclosure_error() : 0.0;
-  };
-  return of(A.shape) + of(B.shape);
 }
 
 bool claims_margins(const FreeClaim& claim) {
@@ -157,17 +150,14 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
     const bool is_held = held != claim.held.end();
     Job job{.a = pair[0], .b = pair[1], .margin = is_held ? held->second : *margin + claim.extra};
     if (clearance) {
-      // Curved bodies keep a clearance if the triangles around them keep it less the enclosure
-      // errors.
-      const double kept = *clearance - enclosure(geometries[pair[0]], geometries[pair[1]]);
-      const bool is_shown = is_held || kept <= *margin;  // The margin proves it, too.
+      const bool is_shown = is_held || *clearance <= *margin;  // The margin proves it, too.
       if (is_shown && !claim.has_margins) {
         continue;
       }
       if (!is_shown) {
         job.promise = Promise::kept;
         job.exceeded = claim.has_margins ? std::optional(job.margin) : std::nullopt;
-        job.margin = kept;
+        job.margin = *clearance;
       }
     }
     const double until = claim.until(members);
@@ -242,9 +232,8 @@ ProofFinding SceneProof::prove(const FreeClaim& claim, const Job& job) const {
     }
   }
   if (found.outcome == CoverOutcome::closer) {
-    const bool decides = enclosure(A, B) == 0.0 || found.seen + enclosure(A, B) < job.margin;
-    finding.verdict = decides ? ProofVerdict::refuted : ProofVerdict::not_proven;
-    finding.reason = decides ? ProofReason::closer : ProofReason::enclosed;
+    finding.verdict = ProofVerdict::refuted;
+    finding.reason = ProofReason::closer;
     finding.when = {found.time, found.time};
     finding.distance = found.seen;
   } else if (found.outcome == CoverOutcome::not_proven) {
@@ -286,8 +275,14 @@ CoverResult SceneProof::cover(const CourseGeometry& A, const CourseGeometry& B,
   const SceneCourses::PairMotions motions = courses_.motions(A, B, window);
   const std::vector<const CoveredMotion*> of_A = pointers(motions.A);
   const std::vector<const CoveredMotion*> of_B = pointers(motions.B);
-  return cover_pair({.tree = *A.tree, .pieces = of_A, .thickness = A.shape.radius()},
-                    {.tree = *B.tree, .pieces = of_B, .thickness = B.shape.radius()}, options);
+  const auto body = [](const CourseGeometry& geometry,
+                       const std::vector<const CoveredMotion*>& pieces) {
+    return CoverBody{.tree = *geometry.tree,
+                     .pieces = pieces,
+                     .thickness = geometry.shape.radius(),
+                     .round = geometry.round ? &*geometry.round : nullptr};
+  };
+  return cover_pair(body(A, of_A), body(B, of_B), options);
 }
 
 /// Proves that no pair begins inside of a solid, as it would never have to cross the surface.
@@ -301,9 +296,8 @@ ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
     }
     const std::optional<bool> nested = are_nested(A, B, t);
     if (nested != false) {
-      const bool decides = nested && enclosure(A, B) == 0.0;
-      take({.verdict = decides ? ProofVerdict::refuted : ProofVerdict::not_proven,
-            .reason = decides ? ProofReason::inside : ProofReason::perhaps_inside,
+      take({.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven,
+            .reason = nested ? ProofReason::inside : ProofReason::perhaps_inside,
             .members = members,
             .when = {t, t}},
            finding);
@@ -331,6 +325,19 @@ ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
   return finding;
 }
 
+/// A point of each component of a geometry, in its frame. Exact.
+std::vector<Eigen::Vector3d> SceneProof::points_of(const CourseGeometry& geometry) {
+  if (geometry.round) {
+    return {geometry.shape.convex_set()->core().origin};
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint32_t v : geometry.shape.component_vertices()) {
+    const std::uint32_t vertex = geometry.shape.hierarchy().vertex_index[v];
+    points.push_back(geometry.shape.mesh().vertices[vertex]);
+  }
+  return points;
+}
+
 std::optional<bool> SceneProof::are_nested(const CourseGeometry& A, const CourseGeometry& B,
                                            double t) const {
   const std::optional<bool> inside_A = has_inside(A, B, t);
@@ -343,7 +350,8 @@ std::optional<bool> SceneProof::are_nested(const CourseGeometry& A, const Course
 
 std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const CourseGeometry& other,
                                            double t) const {
-  if (!solid.shape.is_solid()) {
+  // What is inside a curved body is at the distance 0 from it, which the gap shows.
+  if (!solid.shape.is_solid() || solid.round) {
     return false;
   }
   const SceneCourses::PairMotions motions = courses_.motions(solid, other, {t, t});
@@ -357,11 +365,8 @@ std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const Co
     box.extend(corner);
   }
   std::optional<bool> any = false;
-  for (const std::uint32_t v : other.shape.component_vertices()) {
-    const std::uint32_t vertex = other.shape.hierarchy().vertex_index[v];
-    const IntervalVector3 p =
-        X * (enclose(other.shape.mesh().vertices[vertex]) - enclose(other.p_GP)) +
-        enclose(solid.p_GP);
+  for (const Eigen::Vector3d& p_GQ : points_of(other)) {
+    const IntervalVector3 p = X * (enclose(p_GQ) - enclose(other.p_GP)) + enclose(solid.p_GP);
     bool is_beside = false;
     for (int k = 0; k < 3; ++k) {
       is_beside = is_beside || p.c[k].lower() > box.max()[k] || p.c[k].upper() < box.min()[k];
@@ -377,20 +382,10 @@ std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const Co
 
 ProofFinding SceneProof::prove_contact(const BodyPair& members, double t, double tolerance) const {
   const std::optional<double> margin = courses_.pairs().margin(members);
-  return prove_reach(members, t, [&](const CourseGeometry&, const CourseGeometry&) {
-    return margin.value_or(0.0) + tolerance;
-  });
+  return prove_within(members, t, margin.value_or(0.0) + tolerance);
 }
 
 ProofFinding SceneProof::prove_within(const BodyPair& members, double t, double distance) const {
-  return prove_reach(members, t, [&](const CourseGeometry& A, const CourseGeometry& B) {
-    return distance + enclosure(A, B);
-  });
-}
-
-ProofFinding SceneProof::prove_reach(
-    const BodyPair& members, double t,
-    const std::function<double(const CourseGeometry&, const CourseGeometry&)>& reach) const {
   ProofFinding finding{.members = members, .when = {t, t}};
   bool is_tested = false;
   for (const TimeSpan& span : courses_.pairs().spans(members)) {
@@ -404,7 +399,7 @@ ProofFinding SceneProof::prove_reach(
   finding.reason = ProofReason::apart;
   for (const CourseGeometry& A : courses_.of_member(members[0])) {
     for (const CourseGeometry& B : courses_.of_member(members[1])) {
-      const ProofFinding found = prove_contact(A, B, t, reach(A, B));
+      const ProofFinding found = prove_contact(A, B, t, distance);
       if (found.verdict == ProofVerdict::proven) {
         return found;
       }
@@ -419,12 +414,9 @@ ProofFinding SceneProof::prove_reach(
 ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeometry& B, double t,
                                        double reach) const {
   ProofFinding finding{.members = {A.member, B.member}, .when = {t, t}};
-  std::optional<bool> nested = are_nested(A, B, t);
-  if (nested == true && enclosure(A, B) == 0.0) {
-    return finding;
-  }
+  const std::optional<bool> nested = are_nested(A, B, t);
   if (nested == true) {
-    nested.reset();  // One is in the triangles, the body perhaps is not.
+    return finding;
   }
   finding.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven;
   finding.reason = nested ? ProofReason::apart : ProofReason::perhaps_inside;
@@ -440,12 +432,7 @@ ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeom
                                      .work = options_.work,
                                      .stop = options_.stop});
     if (found.outcome == CoverOutcome::closer) {
-      const double distance = found.seen + enclosure(A, B);
-      if (enclosure(A, B) == 0.0 || distance * (1.0 + 0x1p-50) <= reach) {
-        return {.members = {A.member, B.member}, .when = {t, t}, .distance = distance};
-      }
-      finding.verdict = ProofVerdict::not_proven;
-      finding.reason = ProofReason::enclosed;
+      return {.members = {A.member, B.member}, .when = {t, t}, .distance = found.seen};
     }
     if (found.outcome == CoverOutcome::not_proven) {
       finding.verdict = ProofVerdict::not_proven;

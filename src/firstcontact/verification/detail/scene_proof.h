@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/verification/detail/pair_cover.h>
+#include <firstcontact/separation/detail/pair_cover.h>
 #include <firstcontact/verification/detail/proof_finding.h>
 #include <firstcontact/verification/detail/time_span.h>
 
@@ -73,8 +73,6 @@ class SceneProof {
 
   /// Proves that two members are no farther apart than a distance at a time, for their nominal
   /// motions.
-  ///
-  /// For curved bodies it is the distance of the triangles around them.
   [[nodiscard]] ProofFinding prove_within(const BodyPair& members, double t, double distance) const;
 
  private:
@@ -101,13 +99,11 @@ class SceneProof {
   [[nodiscard]] CoverResult cover(const CourseGeometry& A, const CourseGeometry& B,
                                   const TimeSpan& window, CoverOptions options) const;
   [[nodiscard]] ProofFinding prove_outside(const FreeClaim& claim) const;
+  [[nodiscard]] static std::vector<Eigen::Vector3d> points_of(const CourseGeometry& geometry);
   [[nodiscard]] std::optional<bool> are_nested(const CourseGeometry& A, const CourseGeometry& B,
                                                double t) const;
   [[nodiscard]] std::optional<bool> has_inside(const CourseGeometry& solid,
                                                const CourseGeometry& other, double t) const;
-  [[nodiscard]] ProofFinding prove_reach(
-      const BodyPair& members, double t,
-      const std::function<double(const CourseGeometry&, const CourseGeometry&)>& reach) const;
   [[nodiscard]] ProofFinding prove_contact(const CourseGeometry& A, const CourseGeometry& B,
                                            double t, double reach) const;
 

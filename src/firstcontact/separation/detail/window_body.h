@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/verification/detail/box_tree.h>
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/box_tree.h>
+#include <firstcontact/separation/detail/closest_on_triangles.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 
 namespace firstcontact::detail {
 
@@ -97,6 +99,30 @@ struct WindowBox {
   /// [m/s]  Bound of the excess speed of points along n over the centre: n . (w x y) = (n x w) . y.
   [[nodiscard]] double spread(const Eigen::Vector3d& n) const {
     return support(n.cross(body.now.spin));
+  }
+};
+
+/// The corners of a triangle in the middle of the window, and their velocities.
+struct PlacedTriangle {
+  TrianglePoints corners;
+  TrianglePoints velocities;
+  double reach = 0.0;
+
+  PlacedTriangle(const WindowBody& body, const TrianglePoints& triangle, double from_pivot)
+      : reach(from_pivot) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d lever = body.now.R * triangle[k];
+      corners[k] = body.now.pivot + lever;
+      velocities[k] = body.velocity(lever);
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector3d edge(std::size_t k) const {
+    return corners[(k + 1) % 3] - corners[k];
+  }
+  [[nodiscard]] Eigen::Vector3d normal() const { return unit_or_zero(edge(0).cross(edge(1))); }
+  [[nodiscard]] Eigen::Vector3d middle() const {
+    return (corners[0] + corners[1] + corners[2]) / 3.0;
   }
 };
 

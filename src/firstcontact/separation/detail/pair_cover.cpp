@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/pair_cover.h>
+#include <firstcontact/separation/detail/pair_cover.h>
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,10 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/verification/detail/closest_on_triangles.h>
-#include <firstcontact/verification/detail/triangles_meet.h>
-#include <firstcontact/verification/detail/window_body.h>
+#include <firstcontact/separation/detail/closest_on_triangles.h>
+#include <firstcontact/separation/detail/convex_parts.h>
+#include <firstcontact/separation/detail/triangles_meet.h>
+#include <firstcontact/separation/detail/window_body.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -198,7 +199,7 @@ class Cover {
       const BoxNode& a = A_.tree.nodes[next.a];
       const BoxNode& b = B_.tree.nodes[next.b];
       if (a.is_leaf && b.is_leaf) {
-        if (!prove_triangles(a, b, s)) {
+        if (!(has_round() ? prove_round(a, b, s) : prove_triangles(a, b, s))) {
           left.push_back(next);
         }
       } else {
@@ -210,7 +211,8 @@ class Cover {
   void visit_boxes(const NodePair& pair, const BoxNode& a, const BoxNode& b, const Setting& s,
                    std::vector<NodePair>& left) {
     const double wanted = std::max(s.enough, fine());
-    const GapBound gap = box_gap({s.A, a}, {s.B, b}, s, wanted);
+    const GapBound gap = has_round() ? round_gap(part(A_, s.A, a), part(B_, s.B, b), s, wanted)
+                                     : box_gap({s.A, a}, {s.B, b}, s, wanted);
     if (gap.least() >= wanted ||
         (gap.least() >= s.enough && !s.refines && !(gap.loss < size(a, b)))) {
       accept(gap.least());
@@ -271,25 +273,70 @@ class Cover {
     return kUp * (s.half * rate + 0.5 * s.half * s.half * bend) + s.drift;
   }
 
-  /// The corners of a triangle in the middle of the window, and their velocities.
-  struct PlacedTriangle {
-    TrianglePoints corners;
-    TrianglePoints velocities;
-    double reach = 0.0;
+  [[nodiscard]] bool has_round() const { return A_.round != nullptr || B_.round != nullptr; }
 
-    PlacedTriangle(const WindowBody& body, const TrianglePoints& triangle, double from_pivot)
-        : reach(from_pivot) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d lever = body.now.R * triangle[k];
-        corners[k] = body.now.pivot + lever;
-        velocities[k] = body.velocity(lever);
-      }
+  /// The part of a body below a node: its curved core, a triangle or a box.
+  static ConvexPart part(const CoverBody& of, const WindowBody& body, const BoxNode& node) {
+    if (of.round != nullptr) {
+      return {body, of.round, node.reach};
     }
+    if (node.is_leaf) {
+      return {body, &of.tree.triangles[node.first], node.reach};
+    }
+    return {body, &node, node.reach};
+  }
 
-    [[nodiscard]] Vector3d edge(std::size_t k) const { return corners[(k + 1) % 3] - corners[k]; }
-    [[nodiscard]] Vector3d normal() const { return unit_or_zero(edge(0).cross(edge(1))); }
-    [[nodiscard]] Vector3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
-  };
+  /// The gap of two parts along n, less thickness and errors.
+  [[nodiscard]] GapBound round_gap_along(const Vector3d& n, const ConvexPart& a,
+                                         const ConvexPart& b, const Setting& s) const {
+    const GapBound gap = convex_gap_along(n, a, b, s.half);
+    return {gap.middle - thickness() - s.error, kUp * gap.loss + s.drift};
+  }
+
+  /// The gap along the line of the middles, then along that of the closest points.
+  [[nodiscard]] GapBound round_gap(const ConvexPart& a, const ConvexPart& b, const Setting& s,
+                                   double wanted) const {
+    const GapBound rough = round_gap_along(unit_or_zero(b.middle() - a.middle()), a, b, s);
+    if (rough.least() >= wanted) {
+      return rough;
+    }
+    const ConvexClosest closest = closest_estimate(a, b, thickness() + s.enough);
+    const GapBound fine = round_gap_along(closest.n, a, b, s);
+    return fine.least() > rough.least() ? fine : rough;
+  }
+
+  /// Two leaves of which one at least is a curved core.
+  bool prove_round(const BoxNode& node_a, const BoxNode& node_b, const Setting& s) {
+    const ConvexPart a = part(A_, s.A, node_a);
+    const ConvexPart b = part(B_, s.B, node_b);
+    const ConvexClosest closest = closest_estimate(a, b, thickness() + s.enough);
+    const double seen = std::max(0.0, closest.points.distance + s.error - thickness());
+    if (seen < result_.seen) {
+      result_.seen = seen;
+      result_.seen_time = s.time;
+    }
+    const bool is_close =
+        options_.promise == Promise::kept ? seen < s.enough : kUp * seen <= s.promised;
+    if (is_close ||
+        (options_.promise == Promise::exceeded && closest.points.distance <= 4.0 * s.error &&
+         surely_overlap(a, b, kUp * s.error, thickness()))) {
+      fail(CoverOutcome::closer, s.time);
+      return true;
+    }
+    GapBound best = round_gap_along(closest.n, a, b, s);
+    if (!(best.middle >= s.enough)) {  // Otherwise shorter windows suffice.
+      offer_normals(a, b, closest.n, [&](const Vector3d& n) {
+        const GapBound gap = round_gap_along(n, a, b, s);
+        best = gap.least() > best.least() ? gap : best;
+        return best.middle >= s.enough;
+      });
+    }
+    if (!(best.least() >= s.enough)) {
+      return false;
+    }
+    accept(best.least());
+    return true;
+  }
 
   bool prove_triangles(const BoxNode& a, const BoxNode& b, const Setting& s) {
     const PlacedTriangle A(s.A, A_.tree.triangles[a.first], a.reach);

@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/separation/detail/box_tree.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/closest_on_triangles.h>
+#include <firstcontact/separation/detail/closest_on_triangles.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 
 #include <algorithm>
 #include <cmath>

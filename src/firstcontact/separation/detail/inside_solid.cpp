@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/inside_solid.h>
+#include <firstcontact/separation/detail/inside_solid.h>
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include <firstcontact/verification/detail/triangles_meet.h>
+#include <firstcontact/separation/detail/triangles_meet.h>
 
 #include <cstddef>
 

@@ -2,7 +2,7 @@
 /// The verifier's proof for one pair of bodies and one step.
 ///
 /// Windows of time cover the whole step. In each of them every two triangles are separated along
-/// some direction.
+/// some direction. A curved body takes part as the exact convex set that it is.
 
 #pragma once
 
@@ -12,17 +12,23 @@
 #include <span>
 #include <stop_token>
 
-#include <firstcontact/verification/detail/box_tree.h>
-#include <firstcontact/verification/detail/covered_motion.h>
+#include <firstcontact/separation/detail/box_tree.h>
+#include <firstcontact/separation/detail/covered_motion.h>
 
 namespace firstcontact::detail {
 
+struct RoundSet;
+
 struct CoverBody {
-  const BoxTree& tree;
+  const BoxTree& tree;  ///< Of a curved body: one box around it, without triangles.
   /// Motions one after another, over the whole time of the proof.
   std::span<const CoveredMotion* const> pieces;
   double thickness = 0.0;  ///< [m]  Thickness of the shape around its triangles.
   double jump = 0.0;       ///< [m]  Greatest jump between the end of a piece and the next begin.
+  /// The exact core of a curved body, which counts with its inside; null for triangles.
+  ///
+  /// The least distance of curved bodies is not searched for.
+  const RoundSet* round = nullptr;
 };
 
 /// The meaning of a promised distance.
