@@ -2,16 +2,18 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene_files/read_planned_path.h>
-#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/verification/verify_path.h>
 #include <firstcontact/verification/write_verification.h>
 
+#include "path_scene.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "terminal_text.h"
@@ -73,23 +75,22 @@ std::string describe_path(const std::string& file, const PlannedPath& path,
 ExitStatus prove_path(const ProofArguments& arguments, const std::string& text, Progress& progress,
                       const std::stop_token& stop) {
   const PlannedPath path = parse_planned_path(text, arguments.file, {.lenient = arguments.lenient});
-  if (!arguments.scene.empty() &&
-      read_scene(arguments.scene, {.lenient = arguments.lenient}).text_digest !=
-          path.scene.text_digest) {
-    throw ParseError(arguments.file,
-                     "the path is not one of " + arguments.scene + " as it is now; plan it again");
+  std::vector<std::string> warnings;
+  if (!arguments.scene.empty()) {
+    warnings = require_scene_of_path(arguments, text, path);
   }
   VerifyResultOptions options{.threads = arguments.threads, .stop = stop};
   options.progress = [&](double t) {
     progress.doing(fmt::format("verified {:.3g} % of the path", 100.0 * t));
   };
-  const PathVerification found = [&] {
+  PathVerification found = [&] {
     try {
       return verify_path(path, options);
     } catch (const std::invalid_argument& error) {
       throw ParseError(arguments.file, error.what());
     }
   }();
+  found.warnings.insert(found.warnings.end(), warnings.begin(), warnings.end());
   if (arguments.json) {
     fmt::print("{}\n", write_verification(path, found));
   } else if (found.verdict == ProofVerdict::broken) {

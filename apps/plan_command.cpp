@@ -172,7 +172,7 @@ class Plan {
     std::optional<PlannedPath> path;
     if (result.verdict != PlanVerdict::none) {
       path = planned_path(scene, options, result);
-      path->sources = path_sources(texts_of(scene));
+      path->sources = path_sources(sources_of(scene));
       const std::string text = write_planned_path(*path) + '\n';
       if (!arguments_.output.empty()) {
         write_file(arguments_.output, text);
@@ -211,11 +211,21 @@ class Plan {
                 : write_failure_page(page, scene, result);
   }
 
-  /// The files of text that the scene was made of.
-  [[nodiscard]] std::vector<std::filesystem::path> texts_of(const ScenePlan& scene) const {
+  /// The files that the scene was made of: texts, then robots and meshes.
+  [[nodiscard]] std::vector<std::filesystem::path> sources_of(const ScenePlan& scene) const {
     std::vector<std::filesystem::path> files = scene.loaded.scene.files_read;
     if (!arguments_.scene.empty() && arguments_.scene != "-") {
       files.insert(files.begin(), arguments_.scene);
+    }
+    const auto add = [&](const std::filesystem::path& file) {
+      std::error_code error;
+      if (std::filesystem::is_regular_file(file, error)) {
+        files.push_back(file);
+      }
+    };
+    for (const FileReport& report : scene.loaded.files) {
+      add(report.path);
+      std::ranges::for_each(report.also_read, add);
     }
     return files;
   }

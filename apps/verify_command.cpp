@@ -93,8 +93,9 @@ constexpr const char* kFooter = R"(
 The contents of FILE tell which kind it is.
 
 --scene compares the digest of the scene's text and of the trajectories that the scene names. For
-runs of haptics with robots it compares the digest of all files that the scene names. Options of the
-command that made FILE are not compared.
+runs of haptics with robots it compares the digest of all files that the scene names. For a path it
+compares the whole scene, and names the first key that differs. Options of the command that made
+FILE are not compared.
 
 A run: the proof is about the pairs that a simulation holds apart. One body of such a pair is free,
 and no rule ignores the pair. Two scripted or fixed bodies may pass through each other; the answer

@@ -3,6 +3,7 @@
     plan_test.py TOOL SOURCE_DIR [unittest arguments]
 """
 
+import hashlib
 import json
 import pathlib
 import re
@@ -411,10 +412,12 @@ class Plan(tool_test.ToolTest):
         self.file("ask.yaml", "goal_constraints: [{joint_constraints: [{joint_name: x, position: 0.5}]}]")
         asked = ("--robot", "gantry.urdf", "--environment", "room.yaml", "--request", "ask.yaml")
         self.assertEqual(self.plan(*asked, "-o", "b.json").returncode, 0)
-        for path, names in (("a.json", ["scene.json"]), ("b.json", ["ask.yaml", "room.yaml"])):
+        for path, names in (("a.json", ["scene.json"]), ("b.json", ["ask.yaml", "gantry.urdf", "room.yaml"])):
             sources = json.loads((self.folder / path).read_text())["sources"]
             self.assertEqual(sorted(source["file"] for source in sources), names)
             for name in names:
+                if name == "gantry.urdf":
+                    continue  # Without it the scene cannot be loaded.
                 text = (self.folder / name).read_text()
                 self.file(name, text + " ")
                 result = self.run_tool("verify", path)
@@ -426,6 +429,63 @@ class Plan(tool_test.ToolTest):
                 self.assertIn(f"{name} is not found", result.stdout)
                 self.file(name, text)
                 self.assertEqual(self.run_tool("verify", path).returncode, 0)
+
+    def test_its_path_is_compared_with_its_scene(self):
+        tetrahedron = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 {}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+        self.file("peg.obj", tetrahedron.format(0.1))
+        peg = {"name": "peg", "shape": {"mesh": "peg.obj"}, "pose": {"position": [-0.5, 0, 0]}}
+        question = {"body": "peg", "goal": GOAL, "margin": 0.01, "seed": 3}
+        self.file("scene.json", scene(question, [WALL, peg]))
+        self.assertEqual(self.plan("scene.json", "-o", "path.json").returncode, 0)
+        compare = ("verify", "path.json", "--scene", "scene.json")
+        self.assertEqual(self.run_tool(*compare).returncode, 0)
+        # The scene file changes: the first key that differs is named, with both values.
+        moved = {**WALL, "pose": {"position": [0, 0, 0.125]}}
+        for changed, words in (
+                (scene(question, [moved, peg]), ["scene.bodies[0].", "position[2] is 0", "0.125 by that file"]),
+                (scene(question, [WALL]), []),
+                (scene({**question, "goal": {"position": [0.5, 0.1, 0.5]}}, [WALL, peg]), ["goals[0][2] is 0.25", "0.5"]),
+                (scene({**question, "start": {"position": [-0.4, 0, 0]}}, [WALL, peg]), ["-0.5", "-0.4"]),
+                (scene({**question, "seed": 4}, [WALL, peg]), ["text has changed", "seed"]),
+                (scene(None, [WALL, peg]), ['"plan"'])):
+            self.file("scene.json", changed)
+            self.assert_refused_with(self.run_tool(*compare), *words)
+        self.file("scene.json", scene(question, [WALL, peg]))
+        self.assertEqual(self.run_tool(*compare).returncode, 0)
+        # The scene in the path is edited, with its digest: alone the path is proven, but not as one of the file.
+        path = json.loads((self.folder / "path.json").read_text())
+        text = (self.folder / "path.json").read_text()
+        edited = text.replace('"size":[1e-05,1,1]', '"size":[1e-05,0.5,1]')
+        self.assertNotEqual(edited, text)
+        begin = edited.index('"scene":') + len('"scene":')
+        _, end = json.JSONDecoder().raw_decode(edited, begin)
+        digest = hashlib.sha256(edited[begin:end].encode()).hexdigest()
+        self.file("path.json", edited.replace(path["resolved_digest"], digest))
+        self.assertEqual(self.run_tool("verify", "path.json").returncode, 0)
+        self.assert_refused_with(self.run_tool(*compare), "path.json: ", "scene.bodies[0].shape.", "size[1] is 0.5", "1 by that")
+        self.file("path.json", text)
+        # A mesh changes: its file is named.
+        self.file("peg.obj", tetrahedron.format(0.05))
+        self.assert_refused_with(self.run_tool(*compare), "peg.obj is not what it was")
+
+    def test_compares_a_path_with_the_margin_of_its_scene(self):
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "margin": 0.01}))
+        self.assertEqual(self.plan("scene.json", "--margin", "0.002", "-o", "path.json").returncode, 0)
+        result = self.run_tool("verify", "path.json", "--scene", "scene.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("margin of the path is 0.002 m, that of scene.json is 0.01 m", result.stdout)
+
+    def test_compares_a_path_to_a_pose_of_a_link_with_its_scene(self):
+        self.file("gantry.urdf", URDF)
+        question = {"goal": {"link": "tool", "pose": {"position": [0.5, 0, 0.5]}}}
+        robots = [{"name": "gantry", "urdf": "gantry.urdf"}]
+        far = {**WALL, "pose": {"position": [5, 0, 0]}}
+        self.file("scene.json", scene(question, [far], robots=robots))
+        self.assertEqual(self.plan("scene.json", "-o", "path.json").returncode, 0)
+        compared = self.run_tool("verify", "path.json", "--scene", "scene.json")
+        self.assertEqual(compared.returncode, 0, compared)
+        self.file("gantry.urdf", URDF.replace("0.2 0.2 0.2", "0.3 0.2 0.2"))
+        self.assert_refused_with(self.run_tool("verify", "path.json", "--scene", "scene.json"), "gantry.urdf is not what it was")
 
     def test_prints_json_without_a_path_too(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL, "time": 0.2, "box": [[-1, -1, -1], [1, 1, 1]]}, [CLOSED, PEG]))

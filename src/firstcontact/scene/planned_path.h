@@ -33,7 +33,7 @@ struct NamedContactPair {
   double distance = 0.0;
 };
 
-/// A file of text from which the scene of a path was made, such as a planning scene.
+/// A file from which the scene of a path was made, such as a planning scene or a mesh.
 struct PathSource {
   std::filesystem::path file;  ///< As it was opened.
   std::string digest;          ///< SHA-256, in hexadecimal.
@@ -87,7 +87,7 @@ struct PlannedPath {
   ///
   /// Its text_digest is that of the text from which the path was planned.
   Scene scene = {};
-  std::vector<PathSource> sources = {};  ///< Files of text of the scene, where they are known.
+  std::vector<PathSource> sources = {};  ///< Files of the scene, where they are known.
   std::string version = {};
   std::string input_digest = {};  ///< SHA-256 of everything read, in hexadecimal.
 };

@@ -103,7 +103,7 @@ class PathReader {
   void take_sources(const JsonValue& root, PlannedPath& path) const {
     const JsonValue* sources = find(std::get<JsonObject>(root.value), "sources");
     for (const JsonValue& source :
-         sources == nullptr ? JsonArray() : read_.array(*sources, "files of text")) {
+         sources == nullptr ? JsonArray() : read_.array(*sources, "files")) {
       (void)read_.object(source, {{"file", "sha256"}});
       path.sources.push_back(
           {string_of(read_.member(source, "file")), string_of(read_.member(source, "sha256"))});
@@ -337,7 +337,7 @@ void require_format(const JsonValue& root, const JsonReader& read) {
   }
 }
 
-/// Requires that the files of text are those from which the path was planned. The scene stands in
+/// Requires that the files are those from which the path was planned. The scene stands in
 /// the path, so a missing file is only a warning.
 std::vector<std::string> check_sources(const PlannedPath& path) {
   std::vector<std::string> warnings;

@@ -19,7 +19,7 @@ struct PlannedPath;
 /// @throws std::invalid_argument if a number is not finite
 [[nodiscard]] FIRSTCONTACT_API std::string write_planned_path(const PlannedPath& path);
 
-/// Reads files of text for PlannedPath::sources; each file once.
+/// Reads files for PlannedPath::sources; each file once.
 ///
 /// @throws ParseError  names a file that cannot be read
 [[nodiscard]] FIRSTCONTACT_API std::vector<PathSource> path_sources(
