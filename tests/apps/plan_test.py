@@ -400,6 +400,38 @@ class Plan(tool_test.ToolTest):
         found = json.loads(self.plan(*robot, "--srdf", "gantry.srdf", "--json").stdout)
         self.assertEqual(found["moves"]["joints"], ["x", "z"])
         self.assertEqual(found["goals"], [[0.5, 0]])
+        # Any of several goals will do: joints, poses of links, or both.
+        def joints_at(x):
+            return {"joint_constraints": [{"joint_name": "x", "position": x}]}
+        self.file("request.json", {"group_name": "both", "goal_constraints": [joints_at(1.5), joints_at(0.5)]})
+        found = json.loads(self.plan(*robot, "--srdf", "gantry.srdf", "--json", "-o", "path.json").stdout)
+        self.assertEqual((found["verdict"], found["goals"]), ("proven", [[1.5, 0], [0.5, 0]]))
+        self.assertEqual(found["waypoints"][-1], found["goals"][found["goal"]])
+        self.assertEqual(self.run_tool("verify", "path.json").returncode, 0)
+        self.file("request.json", {**request, "goal_constraints": [joints_at(1.5), *request["goal_constraints"]],
+                                   "group_name": "both"})
+        found = json.loads(self.plan(*robot, "--srdf", "gantry.srdf", "--json").stdout)
+        self.assertEqual((found["verdict"], found["moves"]["joints"]), ("proven", ["x", "z"]))
+        self.assertEqual(found["goals"][0], [1.5, 0])
+        self.assertGreater(len(found["goals"]), 1)
+        self.assertTrue(all(abs(x) <= 0.01 and abs(z - 0.5) <= 0.01 for x, z in found["goals"][1:]), found["goals"])
+        # A goal out of reach is left out with a warning where another one is left.
+        unreachable = {"position_constraints": [{**request["goal_constraints"][0]["position_constraints"][0],
+            "constraint_region": {"primitives": [{"type": 2, "dimensions": [0.01]}],
+                                  "primitive_poses": [{"position": [0, 5, 0]}]}}]}
+        self.file("request.json", {"group_name": "both", "goal_constraints": [unreachable, joints_at(0.5)],
+                                   "allowed_planning_time": 1})
+        result = self.plan(*robot, "--srdf", "gantry.srdf", "--time", "1")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("link \"tool\"", result.stdout)
+        # Goals without a group move the joints that they name.
+        self.file("request.json", {"goal_constraints": [joints_at(0.5), {"joint_constraints": [
+            {"joint_name": "z", "position": 0.25}]}]})
+        found = json.loads(self.plan(*robot, "--json").stdout)
+        self.assertEqual((found["moves"]["joints"], found["goals"]), (["x", "z"], [[0.5, 0], [0, 0.25]]))
+        self.assert_refused_with(self.run_tool("check", *robot), "request.json", "expected one goal, got 2", "firstcontact plan")
+        self.file("request.json", {"goal_constraints": []})
+        self.assert_refused_with(self.plan(*robot), "goal_constraints", "expected a goal, got none")
         self.file("request.json", {**request, "group_name": "left"})
         self.assert_refused_with(self.plan(*robot, "--srdf", "gantry.srdf"), "group_name", "lift, both", '"left"')
 

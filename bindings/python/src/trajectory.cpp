@@ -151,6 +151,11 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
                      "expected a goal of joint positions, got the pose of a link; a scene's "
                      "\"plan\" has such goals");
   }
+  if (!request.further_goals.empty()) {
+    throw ParseError(file.string(), "goal_constraints: expected one goal, got " +
+                                        std::to_string(1 + request.further_goals.size()) +
+                                        "; `firstcontact plan` finds a path to any of them");
+  }
   const auto dict = [](const JointPositions& positions) {
     py::dict result;
     for (const auto& [name, position] : positions) {

@@ -67,15 +67,18 @@ void require_request_keys(const JsonValue& request, const JsonReader& read) {
                  "max_cartesian_speed"}});
 }
 
-const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
+/// The goals of a request, at least one. Any of them will do.
+const JsonArray& goals_of(const JsonValue& request, const JsonReader& read) {
   const JsonValue& goals = read.member(request, "goal_constraints");
   const JsonArray& list = read.array(goals, "an array of goals");
-  if (list.size() != 1) {
-    read.fail(goals, "expected one goal, got " + std::to_string(list.size()));
+  if (list.empty()) {
+    read.fail(goals, "expected a goal, got none");
   }
-  (void)read.object(list.front(), {{"name", "joint_constraints", "position_constraints",
-                                    "orientation_constraints", "visibility_constraints"}});
-  return list.front();
+  for (const JsonValue& goal : list) {
+    (void)read.object(goal, {{"name", "joint_constraints", "position_constraints",
+                              "orientation_constraints", "visibility_constraints"}});
+  }
+  return list;
 }
 
 /// Refuses a message of constraints that is not empty.
@@ -91,12 +94,8 @@ void refuse_constraints(const JsonValue& constraints, const std::string& where,
   }
 }
 
-/// Refuses constraints that would not be kept here.
-void refuse_other_constraints(const JsonValue& request, const JsonValue& goal,
-                              const JsonReader& read) {
-  if (const JsonValue* visible = find_filled(goal, "visibility_constraints")) {
-    read.fail(*visible, "expected no constraints of visibility: they are not supported");
-  }
+/// Refuses constraints along the way, which would not be kept here.
+void refuse_other_constraints(const JsonValue& request, const JsonReader& read) {
   if (const JsonValue* along = find_filled(request, "path_constraints")) {
     refuse_constraints(*along, "along the path", read);
   }
@@ -232,6 +231,39 @@ detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotMo
   return goal;
 }
 
+/// Reads one goal; adds the coordinates that it moves to the request, and the fixed joints that it
+/// names.
+RequestGoal read_goal(const JsonValue& wanted, const RobotModel& robot, const MovedGroup& group,
+                      const JsonReader& read, PlanningRequest& request,
+                      std::vector<std::string>& fixed) {
+  if (const JsonValue* visible = find_filled(wanted, "visibility_constraints")) {
+    read.fail(*visible, "expected no constraints of visibility: they are not supported");
+  }
+  const JsonValue* constraints = find_filled(wanted, "joint_constraints");
+  if ((constraints != nullptr) == is_of_link(wanted)) {
+    read.fail(wanted,
+              "expected \"joint_constraints\" alone, or \"position_constraints\" and "
+              "\"orientation_constraints\" of one link");
+  }
+  RequestGoal goal;
+  std::vector<std::string> moved;
+  if (constraints != nullptr) {
+    detail::MessageState state = read_joint_goal(*constraints, robot, group, read);
+    goal.positions = std::move(state.positions);
+    moved = group.coordinates();
+    fixed.insert(fixed.end(), state.fixed.begin(), state.fixed.end());
+  } else {
+    goal.link = detail::read_pose_constraints(wanted, robot, request.base, read);
+    moved = group.coordinates_above(goal.link->link);
+  }
+  for (std::string& one : moved) {
+    if (std::ranges::find(request.joints, one) == request.joints.end()) {
+      request.joints.push_back(std::move(one));
+    }
+  }
+  return goal;
+}
+
 }  // namespace
 
 PlanningRequest parse_planning_request(std::string_view text, const std::filesystem::path& source,
@@ -270,23 +302,15 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
       result.warnings.push_back(detail::zero_quaternion_warning(name, {"the robot's base"}));
     }
   }
-  const JsonValue& wanted = only_goal(request, read);
-  refuse_other_constraints(request, wanted, read);
-  const JsonValue* constraints = find_filled(wanted, "joint_constraints");
-  if ((constraints != nullptr) == is_of_link(wanted)) {
-    read.fail(wanted,
-              "expected \"joint_constraints\" alone, or \"position_constraints\" and "
-              "\"orientation_constraints\" of one link");
+  refuse_other_constraints(request, read);
+  std::vector<RequestGoal> goals;
+  for (const JsonValue& wanted : goals_of(request, read)) {
+    goals.push_back(read_goal(wanted, robot, group, read, result, fixed));
   }
-  if (constraints != nullptr) {
-    detail::MessageState goal = read_joint_goal(*constraints, robot, group, read);
-    result.goal = std::move(goal.positions);
-    result.joints = group.coordinates();
-    fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
-  } else {
-    result.link_goal = detail::read_pose_constraints(wanted, robot, result.base, read);
-    result.joints = group.coordinates_above(result.link_goal->link);
-  }
+  result.goal = std::move(goals.front().positions);
+  result.link_goal = std::move(goals.front().link);
+  result.further_goals.assign(std::make_move_iterator(goals.begin() + 1),
+                              std::make_move_iterator(goals.end()));
   if (!fixed.empty()) {
     result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));
   }

@@ -52,12 +52,20 @@ struct PlanningScene {
   std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
 
-/// The start and the goal of a moveit_msgs/MotionPlanRequest.
+/// One goal of a request: positions of joints, or the pose of a link.
+struct RequestGoal {
+  JointPositions positions = {};
+  std::optional<LinkGoal> link = {};
+};
+
+/// The start and the goals of a moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   JointPositions start;
   JointPositions goal;  ///< Positions at the goal. Joints that it does not name keep their start.
   std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
-  /// The coordinates of `group_name`; for a link those that move it. Empty where there is no group.
+  std::vector<RequestGoal> further_goals = {};  ///< Goals that will do as well as the first one.
+  /// The coordinates of `group_name`; for links those that move them. Empty where there is no
+  /// group.
   std::vector<std::string> joints = {};
   double velocity_scaling = 1.0;           ///< [-]  Factor of the velocity limits; in (0, 1].
   double acceleration_scaling = 1.0;       ///< [-]  Factor of the acceleration limits; in (0, 1].
@@ -88,7 +96,7 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
     std::string_view text, const std::filesystem::path& source, std::string_view frame);
 
-/// Reads a request with one goal: positions of joints, or the pose of a link.
+/// Reads a request. Each of its goals has positions of joints, or the pose of a link.
 ///
 /// Positions of fixed joints are left out with a warning. A quaternion of zeros is the identity,
 /// with a warning, too. A scaling factor of 0 counts as 1, as in MoveIt.

@@ -140,12 +140,16 @@ class SceneBuilder {
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
     velocity_scaling_ = request.velocity_scaling;
-    if (!request.link_goal) {
+    if (!request.link_goal && request.further_goals.empty()) {
       goal_ = request.goal;
       group_ = request.joints;
     } else if (question_.plans) {
-      scene_.plan =
-          PlanQuestion{.robots = {0}, .joints = request.joints, .link_goals = {*request.link_goal}};
+      scene_.plan = question_of(request);
+    } else if (!request.further_goals.empty()) {
+      throw ParseError(question_.request.string(),
+                       "goal_constraints: expected one goal, got " +
+                           std::to_string(1 + request.further_goals.size()) +
+                           "; `firstcontact plan` finds a path to any of them");
     } else {
       throw ParseError(question_.request.string(),
                        "expected a goal of joint positions, got the pose of a link; "
@@ -153,6 +157,23 @@ class SceneBuilder {
     }
     scene_.id = question_.request.filename().string();
     add_warnings(request.warnings);
+  }
+
+  /// The question for a path to any goal of a request.
+  static PlanQuestion question_of(const PlanningRequest& request) {
+    PlanQuestion plan{.robots = {0}, .joints = request.joints};
+    const auto add = [&](const JointPositions& positions, const std::optional<LinkGoal>& link) {
+      if (link) {
+        plan.link_goals.push_back(*link);
+      } else {
+        plan.goals.push_back(positions);
+      }
+    };
+    add(request.goal, request.link_goal);
+    for (const RequestGoal& goal : request.further_goals) {
+      add(goal.positions, goal.link);
+    }
+    return plan;
   }
 
   /// Gives joints of a request's group that its goal does not name a goal where they start. So a
