@@ -149,6 +149,22 @@ TEST(ContactPairs, CloseOnTheLastEdge) {
   proven_path(table_scene("0.3", goal + pair_with("may_stay", R"(, "at": "goal")")));
 }
 
+// Lifted off a table, and put down on the same table.
+TEST(ContactPairs, OpenAtBothEnds) {
+  const std::string both = R"("contact_pairs": [
+      {"pair": ["box", "table"], "policy": "must_open"},
+      {"pair": ["table", "box"], "policy": "must_open", "at": "goal"}])";
+  const PlannedPath path = proven_path(table_scene("0.101", kGoalOnTable + both));
+  ASSERT_EQ(path.contact_pairs.size(), 2u);
+  ASSERT_GE(path.waypoints.size(), 4u);
+  EXPECT_GT(path.waypoints[1][2], 0.11);
+  EXPECT_GT(path.waypoints[path.waypoints.size() - 2][2], 0.11);
+  // In between it has to keep its margin.
+  PlannedPath low = path;
+  low.waypoints[1][2] = 0.105;
+  EXPECT_NE(verify_path(low).verdict, ProofVerdict::proven);
+}
+
 // Each goal has a distance of its own, so that the hold of one would be none for another.
 TEST(ContactPairs, AtTheGoalNeedOneGoal) {
   const std::string goals =

@@ -77,7 +77,8 @@ void hold_contact_pairs(std::span<const NamedContactPair> pairs, Scene& scene) {
   std::set<std::size_t> bare;  // Links whose paddings move into margins.
   for (const NamedContactPair& named : pairs) {
     const BodyPair pair = members.pair(named);
-    margins[pair] = named.distance;
+    const auto [own, is_first] = margins.emplace(pair, named.distance);
+    own->second = std::min(own->second, named.distance);  // One that opens at both ends.
     for (const std::size_t member : pair) {
       if (members.padding(member).width > 0.0) {
         bare.insert(member);

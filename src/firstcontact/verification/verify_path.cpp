@@ -121,8 +121,12 @@ class PathProof {
       if (a == b || !is_tested(members)) {
         throw BrokenPath("The contact pair " + names + " is not tested.");
       }
-      if (std::ranges::any_of(contacts_,
-                              [&](const Contact& other) { return other.members == members; })) {
+      if (std::ranges::any_of(contacts_, [&](const Contact& other) {
+            const bool opens = one.policy == ContactPolicy::must_open &&
+                               other.claim->policy == ContactPolicy::must_open &&
+                               one.at != other.claim->at;
+            return other.members == members && !opens;
+          })) {
         throw BrokenPath("The contact pair " + names + " is named twice.");
       }
       if (!(one.distance > 0.0 && std::isfinite(one.distance))) {

@@ -64,10 +64,15 @@ bool is_apart(const StartGap& gap) { return gap.apart > 1024.0 * gap.error; }
 ContactEnds::ContactEnds(const PlanScene& plan, const Configuration& start,
                          const std::vector<Configuration>& goals, double kept, double tolerance) {
   for (const ContactPair& pair : plan.contact_pairs) {
-    const auto is_same = [&](const ContactPair& other) { return other.members == pair.members; };
-    if (std::ranges::count_if(plan.contact_pairs, is_same) > 1) {
+    const auto contradicts = [&](const ContactPair& other) {
+      const bool opens = other.policy == ContactPolicy::must_open &&
+                         pair.policy == ContactPolicy::must_open && other.at != pair.at;
+      return other.members == pair.members && !opens;
+    };
+    if (std::ranges::count_if(plan.contact_pairs, contradicts) > 1) {
       throw std::invalid_argument("contact_pairs: " + names_of(plan, pair.members) +
-                                  " are named twice; expected each pair once");
+                                  " are named twice; expected each pair once, or must_open at both "
+                                  "ends");
     }
     measure(plan, pair, pair.at == PathEnd::start ? std::vector<Configuration>{start} : goals, kept,
             tolerance);
@@ -90,7 +95,9 @@ void ContactEnds::measure(const PlanScene& plan, const ContactPair& pair,
   if (touching.size() == places.size()) {
     std::vector<HeldPair> barely;
     for (const ContactPair& one : plan.contact_pairs) {
-      barely.push_back({one.members, tolerance, kToleranceShare * tolerance});
+      if (std::ranges::find(barely, one.members, &HeldPair::members) == barely.end()) {
+        barely.push_back({one.members, tolerance, kToleranceShare * tolerance});
+      }
     }
     const EdgeChecker checker(
         plan, {.tolerance = tolerance, .extra_clearance = kept, .held = std::move(barely)});

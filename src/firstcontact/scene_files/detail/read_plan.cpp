@@ -131,16 +131,20 @@ class PlanReader {
       if (a == b) {
         read_.fail(pair, "expected two bodies, got one twice");
       }
-      const auto is_same = [&](const ContactPair& other) {
-        return other.members == contact.members;
-      };
-      if (std::any_of(plan.contact_pairs.begin(), plan.contact_pairs.end(), is_same)) {
-        read_.fail(pair, "expected each pair once, got it a second time");
-      }
       contact.policy =
           read_.enumerator<ContactPolicy>(read_.member(element, "policy"), kContactPolicyWords);
       if (const JsonValue* at = find(entry, "at")) {
         contact.at = read_.enumerator<PathEnd>(*at, kPathEndWords);
+      }
+      // A pair may open at the start and close at the goal; other holds are of the whole path.
+      const auto contradicts = [&](const ContactPair& other) {
+        const bool opens = other.policy == ContactPolicy::must_open &&
+                           contact.policy == ContactPolicy::must_open && other.at != contact.at;
+        return other.members == contact.members && !opens;
+      };
+      if (std::any_of(plan.contact_pairs.begin(), plan.contact_pairs.end(), contradicts)) {
+        read_.fail(pair,
+                   "expected each pair once, or must_open at both ends; got it a second time");
       }
       plan.contact_pairs.push_back(contact);
     }
