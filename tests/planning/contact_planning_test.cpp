@@ -407,6 +407,92 @@ TEST(ContactSteering, GetsOutOfATightHole) {
   EXPECT_LT(steered.work.counts().edges_checked, 200u);
 }
 
+/// Samples the edges of a triangle mesh's core and its inside, at most `step` apart.
+std::vector<Vector3d> points_of_core(const Mesh& mesh, double step) {
+  std::vector<Vector3d> points;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3d& from = mesh.vertices[a];
+    const Vector3d u = mesh.vertices[b] - from;
+    const Vector3d v = mesh.vertices[c] - mesh.vertices[b];
+    const int n = static_cast<int>(std::ceil(std::max(u.norm(), (u + v).norm()) / step));
+    for (int i = 0; i <= n; ++i) {
+      const int m = v.isZero() ? 0 : i;
+      for (int j = 0; j <= m; ++j) {
+        points.push_back(from + u * i / n + v * j / n);
+      }
+    }
+  }
+  return points;
+}
+
+/// [m]  The distance of a point from a box or from a chain of round tubes, by closed forms.
+double distance_from(const Vector3d& p, const Shape& shape) {
+  if (shape.radius() == 0.0) {
+    const Vector3d half = shape.mesh().vertices.back().cwiseAbs();
+    return (p.cwiseAbs() - half).cwiseMax(0.0).norm();
+  }
+  double least = 1e300;
+  for (const auto& [a, b, c] : shape.mesh().triangles) {
+    const Vector3d& from = shape.mesh().vertices[a];
+    const Vector3d u = shape.mesh().vertices[b] - from;
+    const double t = std::clamp((p - from).dot(u) / u.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - from - t * u).norm() - shape.radius());
+  }
+  return least;
+}
+
+/// [m]  The least distance along the written way; less than 0 where cores alone have room.
+double least_on_way(const NarrowPassage& passage) {
+  const RobotScene& scene = passage.scene.scene;
+  const std::size_t mover = scene.first_member(passage.scene.robots.front());
+  const Shape& moved = scene.geometries(mover)[0].shape;
+  const std::vector<Vector3d> core = points_of_core(moved.mesh(), 0.01);
+  double least = 1e300;
+  for (std::size_t k = 0; k + 1 < passage.way.size(); ++k) {
+    const Configuration& a = passage.way[k];
+    const Configuration& b = passage.way[k + 1];
+    const Eigen::Quaterniond from(a[3], a[4], a[5], a[6]);
+    const Eigen::Quaterniond to(b[3], b[4], b[5], b[6]);
+    for (int i = 0; i <= 32; ++i) {
+      const double t = i / 32.0;
+      const Vector3d p(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]),
+                       a[2] + t * (b[2] - a[2]));
+      const Eigen::Matrix3d R = from.slerp(t, to).toRotationMatrix();
+      for (std::size_t member = 0; member < scene.size(); ++member) {
+        if (member != mover) {
+          const Pose X = scene.geometry_pose(member, 0, 0.0);
+          for (const Vector3d& point : core) {
+            least = std::min(least, distance_from(p + R * point - X.position,
+                                                  scene.geometries(member)[0].shape));
+          }
+        }
+      }
+    }
+  }
+  return least - moved.radius();
+}
+
+// The oracle samples the cores, and knows distances of points alone.
+TEST(NarrowPassages, AreAsWideAsStated) {
+  for (const char* family : {"tubes", "key", "screw"}) {
+    const double share = std::string_view(family) == "tubes" ? 1.0 : 0.5;
+    for (const double clearance : {0.02, 1e-3, 1e-5, -1e-5, -1e-3}) {
+      const NarrowPassage passage = narrow_passage(family, clearance);
+      EXPECT_NEAR(least_on_way(passage), share * clearance, 1e-9) << family << ' ' << clearance;
+      const EdgeChecker checker(passage.scene, {.tolerance = 1e-7, .extra_clearance = 0.0});
+      bool is_free = passage.way.front() == passage.start && passage.way.back() == passage.goal;
+      for (std::size_t k = 0; k + 1 < passage.way.size(); ++k) {
+        is_free = is_free && checker.check_quickly(passage.way[k], passage.way[k + 1]).verdict ==
+                                 EdgeVerdict::free;
+      }
+      EXPECT_EQ(is_free, clearance > 0.0) << family << ' ' << clearance;
+      // The ends of twins are free, so that it is the way that is missing.
+      EXPECT_TRUE(checker.is_free(passage.start)) << family << ' ' << clearance;
+      EXPECT_TRUE(checker.is_free(passage.goal)) << family << ' ' << clearance;
+    }
+  }
+}
+
 TEST(NarrowPassages, AreSolvedInContact) {
   for (const char* family : narrow_families()) {
     const NarrowPassage passage = narrow_passage(family, 0.05);

@@ -31,8 +31,9 @@ constexpr double kWall = 1.2;  // [m]  From the axis to the ends of walls: nothi
 constexpr double kRoomInside =
     0.01;  // [m]  Of a slide in its channel, before a gate it cannot pass.
 
-constexpr std::array<const char*, 8> kFamilies = {"window",   "peg",     "tunnel", "trap",
-                                                  "dovetail", "bayonet", "links",  "maze"};
+constexpr std::array<const char*, 11> kFamilies = {"window",   "peg",     "tunnel", "trap",
+                                                   "dovetail", "bayonet", "links",  "maze",
+                                                   "tubes",    "key",     "screw"};
 
 /// Walls, numbered as they come.
 class Walls {
@@ -247,6 +248,207 @@ NarrowPassage links(double s) {
                  pose({1.4, 0.2, 0.1}, turn(1.0, {1.0, 1.0, 0.0})));
 }
 
+void add_edge(const Vector3d& from, const Vector3d& to, Mesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {from, to});
+  mesh.triangles.push_back({first, first + 1, first + 1});
+}
+
+/// Half the width of the tubes' and the key's round parts.
+constexpr double kRound = 0.5 * kWide;  // [m]
+
+/// A bent tube in the x-z plane. Its ends face each other along x, `span` apart at their cores.
+Shape bent_tube(double span) {
+  std::vector<Vector3d> core = {{0.5 * span, 0.0, -0.3},
+                                {0.3, 0.0, -0.3},
+                                {0.45, 0.0, -0.15},
+                                {0.45, 0.0, 0.15},
+                                {0.3, 0.0, 0.3}};
+  for (std::size_t k = core.size(); k-- > 0;) {
+    core.emplace_back(-core[k].x(), 0.0, core[k].z());
+  }
+  Mesh mesh;
+  for (std::size_t k = 0; k + 1 < core.size(); ++k) {
+    add_edge(core[k], core[k + 1], mesh);
+  }
+  return Shape(std::move(mesh), kRound);
+}
+
+/// The cores, closed by the straight segments between their ends, are linked until two of these
+/// four curves cross.
+///
+/// Where two segments cross, they are the diagonals of a convex quadrilateral. One of its angles is
+/// at least a right angle. So one of the two sides there is at most span / sqrt(2) = s long. Where
+/// a core crosses a segment, it is at most span / 2 < s from an end of the other core.
+NarrowPassage tubes(double s) {
+  const Shape tube = bent_tube(std::numbers::sqrt2 * s);
+  Walls walls;
+  walls.add(tube);
+  const Eigen::Quaterniond across = turn(0.5 * std::numbers::pi, Vector3d::UnitZ());
+  const Eigen::Quaterniond facing = turn(std::numbers::pi, Vector3d::UnitX()) * across;
+  const Eigen::Quaterniond half_way = turn(0.5 * std::numbers::pi, Vector3d::UnitX()) * across;
+  NarrowPassage made =
+      passage(std::move(walls), tube, {-1.4, -1.4, -1.4}, {1.4, 1.4, 1.4},
+              pose({0.0, 0.0, -0.3}, across), pose({0.2, 0.3, -1.3}, turn(1.0, {1.0, 1.0, 0.0})));
+  made.way = {made.start,
+              pose({0.0, 0.0, -0.3}, half_way),
+              pose({0.0, 0.0, -0.3}, facing),
+              pose({0.0, 0.0, -0.6}, facing),
+              pose({0.0, 0.0, -1.3}, facing),
+              made.goal};
+  return made;
+}
+
+/// A key of two bits on a round shaft, through two plates whose keyholes are turned against each
+/// other: each bit is turned between the plates while the shaft is in the keyholes.
+///
+/// The shaft and the bits are as thick as the keyholes are wide, but for the clearance.
+NarrowPassage key(double clearance) {
+  constexpr double kPlate = 0.05;
+  constexpr double kBit = 0.15;           // Of a bit along the shaft.
+  constexpr double kHigh = 0.25;          // Of a bit, from the middle of the shaft.
+  constexpr double kPlay = 0.1;           // Along the shaft, where a bit is turned.
+  constexpr double kRoom = kBit + kPlay;  // Between the plates.
+  constexpr double kApart = 2.0 * kPlate + kRoom + kPlay;  // Between the bits.
+  const double h = 0.5 * (kWide + clearance);
+  const double high = kHigh + 0.5 * std::max(clearance, 0.0);
+  const double ends = 0.5 * kApart + kBit - kRound;  // Of the core, from the middle of the key.
+  Walls walls;
+  walls.plate(0.0, kPlate, {-h, high}, {-h, h});
+  walls.plate(kPlate + kRoom, 2.0 * kPlate + kRoom, {-h, h}, {-h, high});
+  Mesh core;
+  add_edge({-ends, 0.0, 0.0}, {ends, 0.0, 0.0}, core);
+  for (const double sign : {-1.0, 1.0}) {
+    const double x0 = sign * (0.5 * kApart + kRound);
+    const double x1 = sign * ends;
+    const double y = kHigh - kRound;
+    append({.vertices = {{x0, 0.0, 0.0}, {x1, 0.0, 0.0}, {x1, y, 0.0}, {x0, y, 0.0}},
+            .triangles = {{0, 1, 2}, {0, 2, 3}}},
+           core);
+  }
+  const double end = 2.0 * kPlate + kRoom;
+  NarrowPassage made =
+      passage(std::move(walls), Shape(std::move(core), kRound), {-0.9, -kSide, -kSide},
+              {end + 0.9, kSide, kSide}, pose({-0.6, 0.1, 0.1}, turn(0.5, {1.0, 1.0, 0.0})),
+              pose({end + 0.6, 0.1, 0.0}, turn(1.2, {1.0, 0.0, 0.0})));
+  // The middle of the key when a bit is between the plates, and when both are outside.
+  const double in = kPlate + 0.5 * kRoom;
+  const double to_bit = 0.5 * (kApart + kBit);
+  const auto at = [](double x, double angle) {
+    return pose({x, 0.0, 0.0}, turn(angle, Vector3d::UnitX()));
+  };
+  const double right = 0.5 * std::numbers::pi;
+  made.way = {made.start,           at(-0.6, 0.0), at(in - to_bit, 0.0), at(in - to_bit, right),
+              at(in, right),        at(in, 0.0),   at(in + to_bit, 0.0), at(in + to_bit, right),
+              at(end + 0.6, right), made.goal};
+  return made;
+}
+
+/// Places of an eye along a coil: its y axis across the narrow direction, its z axis along the
+/// wire.
+class EyeOnCoil {
+ public:
+  static constexpr std::size_t kSegments = 10;
+
+  EyeOnCoil() {
+    constexpr double kRadius = 0.3;
+    constexpr double kPitch = 0.5;
+    constexpr double kSegmentsOfTurn = 8.0;
+    for (std::size_t k = 0; k <= kSegments; ++k) {
+      const double turns = static_cast<double>(k) / kSegmentsOfTurn;
+      const double angle = 2.0 * std::numbers::pi * turns;
+      points_.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), kPitch * turns);
+    }
+  }
+
+  [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }
+
+  /// In the middle of a segment, its x axis straight away from the axis of the coil.
+  [[nodiscard]] Configuration middle(std::size_t k) const {
+    const Vector3d p = 0.5 * (points_[k] + points_[k + 1]);
+    return placed(p, along(k), Vector3d(p.x(), p.y(), 0.0));
+  }
+
+  /// At a place of segment k, its y axis along the normal of the corner's plane.
+  [[nodiscard]] Configuration at_corner(const Vector3d& p, std::size_t k,
+                                        std::size_t corner) const {
+    const Vector3d normal = along(corner - 1).cross(along(corner));
+    return placed(p, along(k), normal.cross(along(k)));
+  }
+
+  /// Off the start, along all segments, and past the end of the coil.
+  [[nodiscard]] std::vector<Configuration> way() const {
+    std::vector<Configuration> way = {middle(0)};
+    for (std::size_t k = 1; k < kSegments; ++k) {
+      const Vector3d before = 0.5 * (points_[k - 1] + points_[k]);
+      const Vector3d after = 0.5 * (points_[k] + points_[k + 1]);
+      way.push_back(at_corner(before, k - 1, k));
+      way.push_back(at_corner(points_[k], k - 1, k));
+      way.push_back(at_corner(points_[k], k, k));
+      way.push_back(at_corner(after, k, k));
+      way.push_back(middle(k));
+    }
+    const Vector3d last = points_.back() + 0.3 * along(kSegments - 1);
+    way.push_back(way.back());
+    for (int k = 0; k < 3; ++k) {
+      way.back()[static_cast<std::size_t>(k)] = last[k];
+    }
+    return way;
+  }
+
+ private:
+  [[nodiscard]] Vector3d along(std::size_t k) const {
+    return (points_[k + 1] - points_[k]).normalized();
+  }
+  static Configuration placed(const Vector3d& p, const Vector3d& z, const Vector3d& x) {
+    Eigen::Matrix3d axes;
+    axes.col(0) = x.normalized();
+    axes.col(1) = z.cross(axes.col(0));
+    axes.col(2) = z;
+    return pose(p, Eigen::Quaterniond(axes));
+  }
+
+  std::vector<Vector3d> points_;
+};
+
+/// An eye off a coil of round wire that stands on a wall: it has to be screwed along the wire.
+///
+/// The core of the wire, closed below the wall, and the core of the eye are linked until the end of
+/// the wire crosses the eye, between its two long bars. The bars are the two faces. In the twin
+/// only the end of the wire is too thick.
+NarrowPassage screw(double clearance) {
+  constexpr double kBar = 0.03;   // [m]  Radius of the eye's bars.
+  constexpr double kLong = 0.15;  // [m]  Half the length of its opening, at the cores.
+  const EyeOnCoil coil;
+  const std::vector<Vector3d>& points = coil.points();
+  Mesh thin;
+  add_edge(points[0] - Vector3d(0.0, 0.0, 0.4), points[0], thin);
+  for (std::size_t k = 0; k + 2 < points.size(); ++k) {
+    add_edge(points[k], points[k + 1], thin);
+  }
+  Mesh end;
+  add_edge(points[points.size() - 2], points.back(), end);
+  const double inside =
+      clearance > 0.0 ? kRound : std::max(kRound + 0.5 * clearance - kRoomInside, 0.1 * kRound);
+  Walls walls;
+  walls.add(Shape(std::move(thin), inside));
+  walls.add(Shape(std::move(end), kRound));
+  walls.box({-kWall, -kWall, -0.45}, {kWall, kWall, -0.4});
+  const double h = 0.5 * (kWide + clearance) + kBar;
+  const std::array<Vector3d, 4> corners = {Vector3d(-kLong, -h, 0.0), Vector3d(kLong, -h, 0.0),
+                                           Vector3d(kLong, h, 0.0), Vector3d(-kLong, h, 0.0)};
+  Mesh eye;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    add_edge(corners[k], corners[(k + 1) % corners.size()], eye);
+  }
+  NarrowPassage made = passage(std::move(walls), Shape(std::move(eye), kBar),
+                               {-kSide, -kSide, -0.3}, {kSide, kSide, 1.3}, coil.middle(0),
+                               pose({0.2, -0.1, 1.2}, turn(1.0, {0.0, 1.0, 1.0})));
+  made.way = coil.way();
+  made.way.push_back(made.goal);
+  return made;
+}
+
 /// Between cells (i, j) and (i + 1, j), and between (i, j) and (i, j + 1), of 3 times 3.
 struct Maze {
   std::array<std::array<bool, 3>, 2> along_x;
@@ -310,6 +512,9 @@ NarrowPassage narrow_passage(std::string_view family, double clearance) {
                        : family == "bayonet"  ? bayonet(clearance)
                        : family == "links"    ? links(s)
                        : family == "maze"     ? maze(s)
+                       : family == "tubes"    ? tubes(s)
+                       : family == "key"      ? key(clearance)
+                       : family == "screw"    ? screw(clearance)
                                               : throw std::invalid_argument("an unknown family");
   made.width = kWide;
   made.clearance = clearance;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/edges/edge_checker.h>
@@ -25,6 +26,10 @@ struct NarrowPassage {
   Configuration goal;
   double width = 0.0;      ///< [m]
   double clearance = 0.0;  ///< [m]
+  /// A path by construction. Where it is tight, half the clearance is on each side; between the
+  /// openings of the tubes it is the whole. Empty where none is written down; in a twin it
+  /// collides.
+  std::vector<Configuration> way = {};
 };
 
 /// The families:
@@ -35,7 +40,11 @@ struct NarrowPassage {
 /// - dovetail: a wedge-shaped slide out of its channel;
 /// - bayonet: a plate through two slots that are turned against each other: slide, turn, slide;
 /// - links: a closed link off an open one, by its gap;
-/// - maze: a cube through a maze between two lids.
+/// - maze: a cube through a maze between two lids;
+/// - tubes: two bent tubes that hang in each other, like those of the alpha puzzle, off each other:
+///   both openings have to meet at right angles;
+/// - key: a key of two bits through a lock of two plates: slide and turn, four times and three;
+/// - screw: an eye off a coil of wire, by screwing it along the wire.
 [[nodiscard]] std::span<const char* const> narrow_families();
 
 /// @param family     one of narrow_families()

@@ -1,8 +1,11 @@
 #include <firstcontact/planning/detail/gap_sampler.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -29,14 +32,74 @@ Eigen::Vector3d any_across(const Eigen::Vector3d& n, RandomNumbers& random) {
   return std::cos(angle) * t + std::sin(angle) * n.cross(t);
 }
 
+/// Adds a square prism around a segment; around a point, a cube without ends.
+void add_round_edge(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+                    RayTarget& target) {
+  const Eigen::Vector3d along = (b - a).stableNormalized();
+  const Eigen::Vector3d u = along.isZero() ? Eigen::Vector3d::UnitX() : along.unitOrthogonal();
+  const Eigen::Vector3d v = along.isZero() ? Eigen::Vector3d::UnitY() : along.cross(u);
+  const Eigen::Vector3d end = radius * (along.isZero() ? Eigen::Vector3d::UnitZ() : along);
+  std::array<Eigen::Vector3d, 4> corners = {u + v, v - u, -u - v, u - v};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d p = radius * corners[k];
+    const Eigen::Vector3d q = radius * corners[(k + 1) % 4];
+    target.add(a - end + p, a - end + q, b + end + q);
+    target.add(a - end + p, b + end + q, b + end + p);
+  }
+}
+
+/// The edges of triangles, with the number of triangles that they bound.
+using EdgeCounts = std::map<std::array<std::uint32_t, 2>, int>;
+
+EdgeCounts edge_counts(const Mesh& mesh) {
+  EdgeCounts counts;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [u, v] : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) {
+      ++counts[{std::min(u, v), std::max(u, v)}];
+    }
+  }
+  return counts;
+}
+
+/// Adds both sides of a thickened triangle, and its rims where no other triangle continues it.
+void add_thick_triangle(const std::array<std::uint32_t, 3>& triangle,
+                        const std::array<Eigen::Vector3d, 3>& p, double radius,
+                        const EdgeCounts& counts, RayTarget& target) {
+  const Eigen::Vector3d out = radius * (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+  if (out.isZero()) {
+    add_round_edge(p[0], triangle[0] == triangle[1] ? p[2] : p[1], radius, target);
+    return;
+  }
+  target.add(p[0] + out, p[1] + out, p[2] + out);
+  target.add(p[0] - out, p[2] - out, p[1] - out);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const auto [u, v] = std::minmax(triangle[k], triangle[next]);
+    if (counts.at({u, v}) == 1) {
+      const Eigen::Vector3d rim = (p[next] - p[k]).normalized().cross(out);
+      target.add(p[k] + rim - out, p[next] + rim - out, p[next] + rim + out);
+      target.add(p[k] + rim - out, p[next] + rim + out, p[k] + rim + out);
+    }
+  }
+}
+
+/// Adds the triangles of a shape; those of thickened sheets, tubes and balls about as thick.
 void add_triangles(const Shape& shape, const Pose& X, RayTarget& target) {
   const Mesh& mesh = shape.mesh();
   const Eigen::Quaterniond R = X.rotation.normalized();
+  const bool is_thick = shape.radius() > 0.0 && !shape.is_solid();
+  const EdgeCounts counts = is_thick ? edge_counts(mesh) : EdgeCounts();
   const auto place = [&](std::uint32_t vertex) -> Eigen::Vector3d {
     return X.position + R * mesh.vertices[vertex];
   };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    target.add(place(a), place(b), place(c));
+  for (const auto& triangle : mesh.triangles) {
+    const std::array<Eigen::Vector3d, 3> p = {place(triangle[0]), place(triangle[1]),
+                                              place(triangle[2])};
+    if (is_thick) {
+      add_thick_triangle(triangle, p, shape.radius(), counts, target);
+    } else {
+      target.add(p[0], p[1], p[2]);
+    }
   }
 }
 
