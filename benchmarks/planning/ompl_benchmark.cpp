@@ -22,7 +22,6 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
-#include <queue>
 #include <random>
 #include <string>
 #include <utility>
@@ -38,13 +37,14 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <firstcontact/edges/edge_checker.h>
-#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/robot_question.h>
 #include <firstcontact_ompl/proven_edges.h>
 
+#include "benchmarks/planning/fcl_motions.h"
 #include "benchmarks/planning/fcl_places.h"
+#include "benchmarks/planning/thin_plates.h"
 #include "benchmarks/support/panda_problems.h"
 #include "benchmarks/support/timing.h"
 
@@ -61,28 +61,11 @@ struct Settings {
   std::uint64_t seeds = 1;
   int every = 1;
   double time = 10.0;  // [s]
-  int plates = 0;
-  double thickness = 0.003;  // [m]
+  ThinPlates plates;
   std::string output;
 };
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
-
-/// Time that a validator spent, and the number of edges it tested.
-struct Spent {
-  double ms = 0.0;
-  std::size_t edges = 0;
-};
-
-/// Adds the time of a call to that spent.
-template <class Call>
-auto timed(Spent& spent, const Call& call) {
-  const double begin = thread_time();
-  auto answer = call();
-  spent.ms += 1e-3 * (thread_time() - begin);
-  ++spent.edges;
-  return answer;
-}
 
 class TimedProof : public ob::MotionValidator {
  public:
@@ -101,80 +84,6 @@ class TimedProof : public ob::MotionValidator {
  private:
   ProvenEdges proven_;
   Spent& spent_;
-};
-
-/// Tests samples of an edge by FCL: its end first, then by bisection, breadth first.
-class SampledMotions : public ob::MotionValidator {
- public:
-  /// @param count  returns the number of steps of an edge
-  using Count = std::function<int(const ob::State*, const ob::State*)>;
-  SampledMotions(const ob::SpaceInformationPtr& si, OmplStates states, FclPlaces& places,
-                 Count count, Spent& spent)
-      : MotionValidator(si),
-        states_(std::move(states)),
-        places_(places),
-        count_(std::move(count)),
-        spent_(spent) {}
-
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return timed(spent_, [&] { return is_free(from, to); });
-  }
-  bool checkMotion(const ob::State*, const ob::State*,
-                   std::pair<ob::State*, double>&) const override {
-    throw std::logic_error("RRT-Connect has no need of a last valid state");
-  }
-
- private:
-  [[nodiscard]] bool is_free(const ob::State* from, const ob::State* to) const {
-    const Configuration a = states_.read(from);
-    const Configuration b = states_.read(to);
-    if (places_.collide(b)) {
-      return false;
-    }
-    const int count = count_(from, to);
-    std::queue<std::pair<int, int>> open;
-    if (count > 1) {
-      open.push({1, count - 1});
-    }
-    Configuration q = a;
-    while (!open.empty()) {
-      const auto [low, high] = open.front();
-      open.pop();
-      const int middle = (low + high) / 2;
-      for (std::size_t k = 0; k < q.size(); ++k) {
-        q[k] = a[k] + (b[k] - a[k]) * middle / count;
-      }
-      if (places_.collide(q)) {
-        return false;
-      }
-      if (low < middle) {
-        open.push({low, middle - 1});
-      }
-      if (middle < high) {
-        open.push({middle + 1, high});
-      }
-    }
-    return true;
-  }
-
-  OmplStates states_;
-  FclPlaces& places_;
-  Count count_;
-  Spent& spent_;
-};
-
-class SampledStates : public ob::StateValidityChecker {
- public:
-  SampledStates(const ob::SpaceInformationPtr& si, OmplStates states, FclPlaces& places)
-      : StateValidityChecker(si), states_(std::move(states)), places_(places) {}
-
-  bool isValid(const ob::State* state) const override {
-    return si_->satisfiesBounds(state) && !places_.collide(states_.read(state));
-  }
-
- private:
-  OmplStates states_;
-  FclPlaces& places_;
 };
 
 /// The runs of one validator.
@@ -342,32 +251,6 @@ class Problem {
   FclPlaces places_;
 };
 
-/// Puts plates in front of the robot where they leave the start and the goals free.
-Scene with_plates(const Scene& scene, const Settings& settings, int problem, ShapeCache& cache) {
-  constexpr int kTries = 100;
-  Scene made = scene;
-  RandomNumbers random(static_cast<std::uint64_t>(problem));
-  for (int tried = 0, put = 0; put < settings.plates && tried < kTries; ++tried) {
-    Scene more = made;
-    const Eigen::Vector3d place(random.uniform(0.2, 0.9), random.uniform(-0.6, 0.6),
-                                random.uniform(0.1, 1.0));
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond(random.uniform(0.1, 1.0), random.uniform(-1.0, 1.0),
-                           random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0))
-            .normalized();
-    more.bodies.push_back({.name = "plate " + std::to_string(put),
-                           .shape = {.source = BoxShape{{0.2, 0.2, settings.thickness}}},
-                           .motion = FixedMotion{{place, turn}}});
-    const ScenePlan plan = make_scene_plan(more, question_of_trajectory(more), cache);
-    const EdgeChecker checker(plan.plan);
-    if (checker.is_free(plan.start) && checker.is_free(plan.goals.front())) {
-      made = std::move(more);
-      ++put;
-    }
-  }
-  return made;
-}
-
 int run(const Settings& settings) {
   const char* data = std::getenv("FIRSTCONTACT_DATA_DIR");
   if (data == nullptr) {
@@ -380,7 +263,7 @@ int run(const Settings& settings) {
   for (const char* family : kPandaFamilies) {
     for (int problem = 1; problem <= kPandaProblems; problem += settings.every) {
       Scene scene = read_robot_question(panda_problem(data, family, problem));
-      scene = with_plates(scene, settings, problem, cache);
+      scene = with_plates(scene, settings.plates, problem, cache);
       const ScenePlan plan = make_scene_plan(scene, question_of_trajectory(scene), cache);
       Problem work(plan, settings);
       for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
@@ -391,8 +274,8 @@ int run(const Settings& settings) {
   }
   json out = {{"seeds", settings.seeds},
               {"every", settings.every},
-              {"plates", settings.plates},
-              {"thickness_m", settings.thickness}};
+              {"plates", settings.plates.count},
+              {"thickness_m", settings.plates.thickness}};
   for (std::size_t which = 0; which < all.size(); ++which) {
     out["validators"][validators()[which]] = all[which].summary();
     if (which > 0) {
@@ -419,9 +302,9 @@ Settings settings_of(int count, char** arguments) {
     } else if (name == "--time") {
       settings.time = std::stod(value);
     } else if (name == "--plates") {
-      settings.plates = std::stoi(value);
+      settings.plates.count = std::stoi(value);
     } else if (name == "--thickness") {
-      settings.thickness = std::stod(value);
+      settings.plates.thickness = std::stod(value);
     } else if (!name.starts_with("--")) {
       settings.output = name;
     } else {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/planning/detail/planned_speeds.h>
@@ -310,6 +311,102 @@ TEST(PlanInTime, WritesAPathWithTimes) {
 }
 
 /// An arm of one bar that waits, among another one that sweeps a quarter turn.
+/// A box that may move in a plane: where it is at a time, and half its size.
+struct BoxInPlane {
+  Vector3d middle;
+  double yaw = 0.0;  // [rad]
+  Vector3d half;
+
+  [[nodiscard]] double distance(const Vector3d& p) const {
+    const Vector3d in = Eigen::AngleAxisd(-yaw, Vector3d::UnitZ()) * (p - middle);
+    return (in.cwiseAbs() - half).cwiseMax(0.0).norm();
+  }
+};
+
+/// [m]  The least distance of points of the moved box from others, each 5 ms; points 25 mm apart.
+template <class OthersAt>
+double least_in_time(const PlanResult& result, const Vector3d& half, const OthersAt& others) {
+  std::vector<Vector3d> points;
+  for (double x = -half.x(); x <= half.x() + 1e-9; x += 0.025) {
+    for (double y = -half.y(); y <= half.y() + 1e-9; y += 0.025) {
+      for (const double z : {-half.z(), 0.0, half.z()}) {
+        points.emplace_back(x, y, z);
+      }
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t k = 0;
+  for (double time = 0.0; time <= result.times.back(); time += 0.005) {
+    while (k + 2 < result.times.size() && result.times[k + 1] <= time) {
+      ++k;
+    }
+    const double share = (time - result.times[k]) / (result.times[k + 1] - result.times[k]);
+    const Configuration& a = result.path[k];
+    const Configuration& b = result.path[k + 1];
+    const Vector3d from(a[0], a[1], a[2]);
+    const Vector3d p = from + share * (Vector3d(b[0], b[1], b[2]) - from);
+    const Eigen::Quaterniond R = Eigen::Quaterniond(a[3], a[4], a[5], a[6])
+                                     .slerp(share, Eigen::Quaterniond(b[3], b[4], b[5], b[6]));
+    for (const BoxInPlane& box : others(time)) {
+      for (const Vector3d& point : points) {
+        least = std::min(least, box.distance(p + R * point));
+      }
+    }
+  }
+  return least;
+}
+
+ScenePlan demo_plan(const std::string& name) {
+  const Scene scene = read_scene(std::string(FIRSTCONTACT_SOURCE_DIR) + "/demo/plans/" + name);
+  ShapeCache cache;
+  return make_scene_plan(scene, *scene.plan, cache);
+}
+
+// Six boxes pass the belt at 0.5 m/s, and leave 0.5 m between them.
+TEST(PlanInTime, CrossesAConveyorBetweenItsBoxes) {
+  const ScenePlan plan = demo_plan("conveyor.json");
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PlanOptions options = plan.options;
+    options.seed = seed;
+    const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, options);
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << seed;
+    EXPECT_GT(least_in_time(result, Vector3d::Constant(0.15),
+                            [](double time) {
+                              std::vector<BoxInPlane> boxes;
+                              for (int k = 0; k < 6; ++k) {
+                                boxes.push_back({.middle = {0.6, 1.2 - 0.8 * k + 0.5 * time, 0.0},
+                                                 .half = Vector3d::Constant(0.15)});
+                              }
+                              return boxes;
+                            }),
+              0.0)
+        << seed;
+  }
+}
+
+// Two wings turn once in 10 s. A cart has to walk along between them.
+TEST(PlanInTime, GoesThroughARevolvingDoor) {
+  const ScenePlan plan = demo_plan("revolving_door.json");
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PlanOptions options = plan.options;
+    options.seed = seed;
+    const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, options);
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << seed;
+    EXPECT_GT(least_in_time(result, {0.2, 0.2, 0.5},
+                            [](double time) {
+                              const double yaw = 0.2 * std::numbers::pi * time;
+                              const Vector3d o = Vector3d::Zero();
+                              return std::vector<BoxInPlane>{
+                                  {.middle = o, .yaw = yaw, .half = {1.0, 0.02, 1.0}},
+                                  {.middle = o, .yaw = yaw, .half = {0.02, 1.0, 1.0}},
+                                  {.middle = {0.0, -2.05, 0.0}, .half = {0.05, 1.0, 1.0}},
+                                  {.middle = {0.0, 2.05, 0.0}, .half = {0.05, 1.0, 1.0}}};
+                            }),
+              0.0)
+        << seed;
+  }
+}
+
 TEST(PlanInTime, LetsAnArmPassAnotherOne) {
   RobotScene scene;
   const RobotMotion at_rest = planar_motion({ramp(0.0, 0.0)});
