@@ -271,7 +271,8 @@ TEST_F(PlanFile, SaysWhatIsWrongWithPairsInContact) {
        {pairs(R"({"pair": ["peg", "peg"])" + policy),
         ".contact_pairs[0].pair: expected two bodies, got one twice"},
        {pairs(twice + "," + R"({"pair": ["peg", "wall"])" + policy),
-        ".contact_pairs[1].pair: expected each pair once, got it a second time"},
+        ".contact_pairs[1].pair: expected each pair once, or must_open at both ends; got it a "
+        "second time"},
        // A robot is many members: which of them is in contact has to be said.
        {pairs(R"({"pair": ["peg", "arm"])" + policy),
         ".contact_pairs[0].pair[1]: " + name + "the robot or group \"arm\""},

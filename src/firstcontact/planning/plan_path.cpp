@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/edges/detail/blocked_place.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/number_text.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/parallel/parallel_for.h>
-#include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/lazy_prm.h>
 #include <firstcontact/planning/detail/plan_in_time.h>

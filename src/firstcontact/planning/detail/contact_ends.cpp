@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/planning/detail/blocked_place.h>
-#include <firstcontact/planning/detail/straight_ways.h>
+#include <firstcontact/edges/detail/blocked_place.h>
+#include <firstcontact/edges/detail/straight_ways.h>
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/robot_check/detail/geometry_search.h>
 #include <firstcontact/robot_check/detail/pair_holds.h>

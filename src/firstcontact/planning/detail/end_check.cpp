@@ -1,6 +1,6 @@
 #include <firstcontact/planning/detail/end_check.h>
 
-#include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/edges/detail/blocked_place.h>
 #include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/plan_in_time.h>
 #include <firstcontact/planning/detail/timed_edges.h>

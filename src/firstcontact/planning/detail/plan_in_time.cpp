@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/edges/detail/blocked_place.h>
 #include <firstcontact/edges/detail/edge_question.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/shorten_timed_path.h>
 #include <firstcontact/planning/detail/timed_connect.h>

@@ -229,41 +229,6 @@ VectorXd IslandRobots::mean_positions(std::size_t r, const RobotFlight& flight, 
   return robots_[r].robot->mechanism.moved(flight.end.positions, 0.5 * span * changed);
 }
 
-/// The displacement from there to the positions where drives place coordinates.
-///
-/// It is the least such displacement in the kinetic metric, as impulses would make it. It leads no
-/// other joint beyond its limits.
-VectorXd IslandRobots::placement(std::size_t r, const RobotFlight& flight,
-                                 const std::vector<double>& drives, const VectorXd& v,
-                                 const VectorXd& positions, const PlanSpan& span) const {
-  const std::vector<PlacedCoordinate> placed = placed_coordinates(
-      robots_[r].robot->laws, flight.drives, drives, robots_[r].state, flight.rule, span, v);
-  std::vector<Eigen::Index> at;
-  std::vector<double> missing;
-  for (const PlacedCoordinate& coordinate : placed) {
-    at.push_back(coordinate.velocity);
-    missing.push_back(coordinate.at - positions[coordinate.position]);
-  }
-  VectorXd displacement = VectorXd::Zero(v.size());
-  for (std::size_t known = 0; known < at.size();) {
-    known = at.size();
-    const Eigen::Map<const VectorXd> way(missing.data(), static_cast<Eigen::Index>(known));
-    const MatrixXd columns = flight.inverse_mass(Eigen::all, at);
-    displacement = columns * MatrixXd(columns(at, Eigen::all)).llt().solve(way);
-    displacement(at) = way;
-    for (const JointLaw& law : robots_[r].robot->laws) {
-      const double by = displacement[law.velocity];
-      const double most = room_within_limits(law, robots_[r].state.positions[law.position],
-                                             positions[law.position], by);
-      if (most != by && std::ranges::find(at, law.velocity) == at.end()) {
-        at.push_back(law.velocity);
-        missing.push_back(most);
-      }
-    }
-  }
-  return displacement;
-}
-
 std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
                                            const ContactSolution& solution,
                                            const std::vector<RobotFlight>& flights,

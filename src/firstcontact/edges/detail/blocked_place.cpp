@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/edges/detail/blocked_place.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/edges/detail/straight_ways.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/straight_ways.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>

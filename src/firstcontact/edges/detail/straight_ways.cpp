@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/straight_ways.h>
+#include <firstcontact/edges/detail/straight_ways.h>
 
 #include <cmath>
 #include <cstddef>
