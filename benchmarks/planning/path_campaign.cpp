@@ -17,6 +17,7 @@
 // needs FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -93,9 +94,18 @@ struct Counts {
   double verifying = 0.0;  ///< [us]
   double fcl = 0.0;        ///< [us]  Tests of paths.
   double retiming = 0.0;   ///< [us]  Includes the tests by FCL.
+  /// [ms]  Of retiming with its proof, for each mode.
+  std::array<std::vector<double>, kRetimingModeWords.size()> retime_ms = {};
 
   [[nodiscard]] json summary() const {
-    return {{"problems", problems},
+    json medians = json::object();
+    for (std::size_t mode = 0; mode < retime_ms.size(); ++mode) {
+      if (!retime_ms[mode].empty()) {
+        medians[kRetimingModeWords[mode]] = quantile(retime_ms[mode], 0.5);
+      }
+    }
+    return {{"retime_ms_median", medians},
+            {"problems", problems},
             {"paths", paths},
             {"paths_of_verify", paths_of_verify},
             {"paths_of_fcl", paths_of_fcl},
@@ -200,8 +210,10 @@ class Problem {
     const LoadedRetimingScene loaded = load_retiming_scene(input, cache_);
     for (const RetimingMode mode :
          {RetimingMode::stop, RetimingMode::blend, RetimingMode::time_optimal}) {
+      const double begin = thread_time();
       const RetimedMotion retimed =
           retime(input.path, limits, loaded.where, {.mode = mode, .proof = {.threads = 1}});
+      counts_.retime_ms[static_cast<std::size_t>(mode)].push_back(1e-3 * (thread_time() - begin));
       ++counts_.trajectories;
       if (!retimed.proof.is_proven()) {
         ++counts_.trajectories_refused;
@@ -250,9 +262,9 @@ class Problem {
     const Eigen::Isometry3d X_WL = places_.links(q)[link];
     const Eigen::Vector3d place =
         X_WL * Eigen::Vector3d(geometry.X_MG.position + geometry.X_MG.rotation * vertex);
-    path.scene.bodies.push_back({.name = "a wall of 10 um",
-                                 .shape = {.source = BoxShape{{0.05, 0.05, kWall}}},
-                                 .motion = FixedMotion{{place, random_rotation(random)}}});
+    add_body(path.scene, {.name = "a wall of 10 um",
+                          .shape = {.source = BoxShape{{0.05, 0.05, kWall}}},
+                          .motion = FixedMotion{{place, random_rotation(random)}}});
     ++counts_.walls;
     ShapeCache cache;
     path.input_digest = load_scene(path.scene, cache).input_digest;

@@ -40,9 +40,9 @@ inline Scene with_plates(const Scene& scene, const ThinPlates& plates, int probl
         Eigen::Quaterniond(random.uniform(0.1, 1.0), random.uniform(-1.0, 1.0),
                            random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0))
             .normalized();
-    more.bodies.push_back({.name = "plate " + std::to_string(put),
-                           .shape = {.source = BoxShape{{0.2, 0.2, plates.thickness}}},
-                           .motion = FixedMotion{{place, turn}}});
+    add_body(more, {.name = "plate " + std::to_string(put),
+                    .shape = {.source = BoxShape{{0.2, 0.2, plates.thickness}}},
+                    .motion = FixedMotion{{place, turn}}});
     const ScenePlan plan = make_scene_plan(more, question_of_trajectory(more), cache);
     const EdgeChecker checker(plan.plan);
     // FCL tests links at rest among bodies at rest, too. The planners leave such pairs out.
