@@ -82,36 +82,6 @@ TEST(HapticSession, IsTheSameOnEveryRun) {
   EXPECT_EQ(forces(), forces());
 }
 
-/// Slides a small cube over a large one, across all edges of its top and down its sides.
-Vector3d around_a_cube(double s) {
-  const double angle = 2.0 * std::numbers::pi * s;
-  // The wish is inside of the cube all the way round: 45 mm around 50 mm.
-  return {0.045 * std::cos(angle), 0.0, 0.045 * std::sin(angle) - 0.065};
-}
-
-TEST(HapticSession, SlewStaysAsDeclaredOverTheEdgesOfACube) {
-  HapticScene scene;
-  scene.tools.push_back(tool_at("finger", make_sphere(0.005), {0.0, 0.0, 0.065}));
-  scene.bodies.push_back(body_at("cube", make_box({0.1, 0.1, 0.1}), Vector3d::Zero()));
-  HapticSessionOptions options;
-  options.forces.limits.force_slew = 2000.0;
-  HapticSession session(scene, options);
-  Sampled sampled;
-  Vector3d last = Vector3d::Zero();
-  double greatest = 0.0;
-  constexpr int kTicks = 16'000;
-  for (int k = 0; k < kTicks; ++k) {
-    const double s = 0.25 + static_cast<double>(k) / kTicks;
-    const ForceTick& tick = session.step(std::array{sampled(around_a_cube(s), session.time_ns())});
-    const Vector3d& force = tick.tools[0].command.force_D;
-    ASSERT_LE((force - last).norm(), 2000.0 * 250e-6 * (1.0 + 1e-9)) << k;
-    ASSERT_TRUE(force.allFinite());
-    greatest = std::max(greatest, force.norm());
-    last = force;
-  }
-  EXPECT_GT(greatest, 3.0);
-}
-
 // The contact loop hangs for a while: no kick, and no force of long ago.
 TEST(HapticSession, BoundsTheForceWhileTheContactLoopStalls) {
   for (const std::int64_t stall_ms : {5, 50, 500}) {
