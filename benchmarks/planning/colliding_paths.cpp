@@ -60,6 +60,7 @@
 #include "benchmarks/planning/blended_path.h"
 #include "benchmarks/planning/fcl_motions.h"
 #include "benchmarks/planning/fcl_places.h"
+#include "benchmarks/planning/peer_settings.h"
 #include "benchmarks/planning/thin_plates.h"
 #include "benchmarks/support/panda_problems.h"
 #include "planning/ompl_planners.h"
@@ -75,13 +76,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array<const char*, 4> kSteps = {"1 % of the extent", "5 degrees", "1 degree",
                                                "32 per radian"};
 
-struct Settings {
+struct Settings : PeerSettings {
   std::vector<std::string> planners;
-  std::uint64_t seeds = 1;
-  int every = 1;
-  double time = 2.0;  // [s]
-  ThinPlates plates;
-  std::string output;
 };
 
 const std::map<std::string, test::MakePlanner>& planners() {
@@ -287,31 +283,17 @@ std::vector<std::string> planners_of(const std::string& text) {
 
 Settings settings_of(int count, char** arguments) {
   Settings settings;
+  settings.time = 2.0;
   for (const auto& [name, make] : planners()) {
     settings.planners.push_back(name);
   }
-  for (int k = 1; k < count; ++k) {
-    const std::string name = arguments[k];
-    const bool is_option = name.starts_with("--") && k + 1 < count;
-    const std::string value = is_option ? arguments[++k] : "";
-    if (name == "--planners") {
-      settings.planners = planners_of(value);
-    } else if (name == "--seeds") {
-      settings.seeds = std::stoull(value);
-    } else if (name == "--every") {
-      settings.every = std::max(1, std::stoi(value));
-    } else if (name == "--time") {
-      settings.time = std::stod(value);
-    } else if (name == "--plates") {
-      settings.plates.count = std::stoi(value);
-    } else if (name == "--thickness") {
-      settings.plates.thickness = std::stod(value);
-    } else if (!name.starts_with("--")) {
-      settings.output = name;
-    } else {
-      throw std::invalid_argument("unknown option " + name);
-    }
-  }
+  read_arguments(count, arguments, settings,
+                 [&](const std::string& name, const std::string& value) {
+                   if (name == "--planners") {
+                     settings.planners = planners_of(value);
+                   }
+                   return name == "--planners";
+                 });
   return settings;
 }
 

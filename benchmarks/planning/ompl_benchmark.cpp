@@ -44,6 +44,7 @@
 
 #include "benchmarks/planning/fcl_motions.h"
 #include "benchmarks/planning/fcl_places.h"
+#include "benchmarks/planning/peer_settings.h"
 #include "benchmarks/planning/thin_plates.h"
 #include "benchmarks/support/panda_problems.h"
 #include "benchmarks/support/timing.h"
@@ -57,13 +58,7 @@ namespace og = ompl::geometric;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-struct Settings {
-  std::uint64_t seeds = 1;
-  int every = 1;
-  double time = 10.0;  // [s]
-  ThinPlates plates;
-  std::string output;
-};
+using Settings = PeerSettings;
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
@@ -291,26 +286,8 @@ int run(const Settings& settings) {
 
 Settings settings_of(int count, char** arguments) {
   Settings settings;
-  for (int k = 1; k < count; ++k) {
-    const std::string name = arguments[k];
-    const bool is_option = name.starts_with("--") && k + 1 < count;
-    const std::string value = is_option ? arguments[++k] : "";
-    if (name == "--seeds") {
-      settings.seeds = std::stoull(value);
-    } else if (name == "--every") {
-      settings.every = std::max(1, std::stoi(value));
-    } else if (name == "--time") {
-      settings.time = std::stod(value);
-    } else if (name == "--plates") {
-      settings.plates.count = std::stoi(value);
-    } else if (name == "--thickness") {
-      settings.plates.thickness = std::stod(value);
-    } else if (!name.starts_with("--")) {
-      settings.output = name;
-    } else {
-      throw std::invalid_argument("unknown option " + name);
-    }
-  }
+  settings.time = 10.0;
+  read_arguments(count, arguments, settings);
   return settings;
 }
 
