@@ -233,16 +233,16 @@ goal_constraints:
 )",
                                                          "r.yaml", crane());
   EXPECT_EQ(request.start, (JointPositions{{"turn", 0.5}, {"lift", 0.25}}));
-  EXPECT_EQ(request.goal, (JointPositions{{"turn", -1.5}}));
+  EXPECT_EQ(request.goals.at(0).positions, (JointPositions{{"turn", -1.5}}));
   EXPECT_EQ(request.base.position, Eigen::Vector3d(1, 0, 0));
-  const Trajectory motion = straight_motion(crane(), request.start, request.goal);
+  const Trajectory motion = straight_motion(crane(), request.start, request.goals.at(0).positions);
   EXPECT_EQ(motion.joint_names, (std::vector<std::string>{"turn"}));
   EXPECT_EQ(motion.points[0].positions[0], 0.5);
   EXPECT_EQ(motion.points[1].positions[0], -1.5);
   EXPECT_NEAR(motion.points[1].time, 0.5, 1e-9);  // Two radians at four in a second.
   EXPECT_GT(motion.points[1].time, 0.5);
-  const Trajectory slow =
-      straight_motion(crane(), request.start, request.goal, Turning::shortest, 0.25);
+  const Trajectory slow = straight_motion(crane(), request.start, request.goals.at(0).positions,
+                                          Turning::shortest, 0.25);
   EXPECT_NEAR(slow.points[1].time, 2.0, 1e-9);
   EXPECT_EQ(slow.points[1].positions, motion.points[1].positions);
 }
@@ -285,7 +285,7 @@ goal_constraints:
 )",
                                                          "r.yaml", crane());
   EXPECT_EQ(request.start, (JointPositions{{"turn", 0.5}}));
-  EXPECT_EQ(request.goal, (JointPositions{{"turn", -1.5}}));
+  EXPECT_EQ(request.goals.at(0).positions, (JointPositions{{"turn", -1.5}}));
   EXPECT_EQ(request.base.position, Eigen::Vector3d(1, 0, 0));
   EXPECT_EQ(request.warnings,
             (std::vector<std::string>{
@@ -322,8 +322,8 @@ goal_constraints:
     absolute_z_axis_tolerance: 3.14
 )",
                                                          "r.yaml", crane());
-  EXPECT_TRUE(request.goal.empty());
-  const LinkGoal& goal = request.link_goal.value();
+  EXPECT_TRUE(request.goals.at(0).positions.empty());
+  const LinkGoal& goal = request.goals.at(0).link.value();
   EXPECT_EQ(goal.link, "hook");
   EXPECT_EQ(goal.X_LT.position, Eigen::Vector3d(0, 0, -0.5));
   EXPECT_EQ(goal.X_WT.position, Eigen::Vector3d(1, 2, 3));
@@ -345,7 +345,7 @@ TEST(PlanningRequest, MayTurnALinkAsItLikes) {
           wide + ", absolute_y_axis_tolerance: " + wide + ", absolute_z_axis_tolerance: " + wide +
           "}]}]",
       "r.yaml", crane());
-  EXPECT_GE(request.link_goal.value().rotation_tolerance, std::numbers::pi);
+  EXPECT_GE(request.goals.at(0).link.value().rotation_tolerance, std::numbers::pi);
 }
 
 TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {
@@ -429,7 +429,8 @@ TEST(PlanningScene, ReadsMotionBenchMaker) {
       EXPECT_FALSE(read_planning_scene(entry.path(), "panda_link0").bodies.empty()) << name;
       ++scenes;
     } else if (name.starts_with("request")) {
-      EXPECT_EQ(read_planning_request(entry.path(), panda).goal.size(), 7u) << name;
+      EXPECT_EQ(read_planning_request(entry.path(), panda).goals.at(0).positions.size(), 7u)
+          << name;
     }
   }
   EXPECT_EQ(scenes, 400);

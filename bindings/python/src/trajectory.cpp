@@ -146,14 +146,14 @@ bool equal(const Trajectory& a, const Trajectory& b) {
 py::object read_request(const path& file, const HeldRobotModel& robot) {
   require_file(file);
   const PlanningRequest request = read_planning_request(file, robot.model);
-  if (request.link_goal) {
+  if (request.goals.front().link) {
     throw ParseError(file.string(),
                      "expected a goal of joint positions, got the pose of a link; a scene's "
                      "\"plan\" has such goals");
   }
-  if (!request.further_goals.empty()) {
+  if (request.goals.size() > 1) {
     throw ParseError(file.string(), "goal_constraints: expected one goal, got " +
-                                        std::to_string(1 + request.further_goals.size()) +
+                                        std::to_string(request.goals.size()) +
                                         "; `firstcontact plan` finds a path to any of them");
   }
   const auto dict = [](const JointPositions& positions) {
@@ -164,9 +164,9 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
     return result;
   };
   return py::module_::import("firstcontact._tuples")
-      .attr("PlanningRequest")(dict(request.start), dict(request.goal), request.base,
-                               py::tuple(py::cast(request.warnings)), request.velocity_scaling,
-                               request.acceleration_scaling);
+      .attr("PlanningRequest")(dict(request.start), dict(request.goals.front().positions),
+                               request.base, py::tuple(py::cast(request.warnings)),
+                               request.velocity_scaling, request.acceleration_scaling);
 }
 
 void bind_class(py::module_& m) {

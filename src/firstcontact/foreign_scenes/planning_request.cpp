@@ -303,14 +303,9 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
     }
   }
   refuse_other_constraints(request, read);
-  std::vector<RequestGoal> goals;
   for (const JsonValue& wanted : goals_of(request, read)) {
-    goals.push_back(read_goal(wanted, robot, group, read, result, fixed));
+    result.goals.push_back(read_goal(wanted, robot, group, read, result, fixed));
   }
-  result.goal = std::move(goals.front().positions);
-  result.link_goal = std::move(goals.front().link);
-  result.further_goals.assign(std::make_move_iterator(goals.begin() + 1),
-                              std::make_move_iterator(goals.end()));
   if (!fixed.empty()) {
     result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));
   }

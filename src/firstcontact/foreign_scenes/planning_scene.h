@@ -54,16 +54,14 @@ struct PlanningScene {
 
 /// One goal of a request: positions of joints, or the pose of a link.
 struct RequestGoal {
-  JointPositions positions = {};
-  std::optional<LinkGoal> link = {};
+  JointPositions positions = {};      ///< Joints that they do not name keep their start.
+  std::optional<LinkGoal> link = {};  ///< In place of positions.
 };
 
 /// The start and the goals of a moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   JointPositions start;
-  JointPositions goal;  ///< Positions at the goal. Joints that it does not name keep their start.
-  std::optional<LinkGoal> link_goal = {};  ///< The pose of a link, in place of positions of joints.
-  std::vector<RequestGoal> further_goals = {};  ///< Goals that will do as well as the first one.
+  std::vector<RequestGoal> goals = {};  ///< At least one; any of them will do.
   /// The coordinates of `group_name`; for links those that move them. Empty where there is no
   /// group.
   std::vector<std::string> joints = {};

@@ -140,15 +140,16 @@ class SceneBuilder {
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
     velocity_scaling_ = request.velocity_scaling;
-    if (!request.link_goal && request.further_goals.empty()) {
-      goal_ = request.goal;
+    const bool is_one = request.goals.size() == 1;
+    if (is_one && !request.goals.front().link) {
+      goal_ = request.goals.front().positions;
       group_ = request.joints;
     } else if (question_.plans) {
       scene_.plan = question_of(request);
-    } else if (!request.further_goals.empty()) {
+    } else if (!is_one) {
       throw ParseError(question_.request.string(),
                        "goal_constraints: expected one goal, got " +
-                           std::to_string(1 + request.further_goals.size()) +
+                           std::to_string(request.goals.size()) +
                            "; `firstcontact plan` finds a path to any of them");
     } else {
       throw ParseError(question_.request.string(),
@@ -162,16 +163,12 @@ class SceneBuilder {
   /// The question for a path to any goal of a request.
   static PlanQuestion question_of(const PlanningRequest& request) {
     PlanQuestion plan{.robots = {0}, .joints = request.joints};
-    const auto add = [&](const JointPositions& positions, const std::optional<LinkGoal>& link) {
-      if (link) {
-        plan.link_goals.push_back(*link);
+    for (const RequestGoal& goal : request.goals) {
+      if (goal.link) {
+        plan.link_goals.push_back(*goal.link);
       } else {
-        plan.goals.push_back(positions);
+        plan.goals.push_back(goal.positions);
       }
-    };
-    add(request.goal, request.link_goal);
-    for (const RequestGoal& goal : request.further_goals) {
-      add(goal.positions, goal.link);
     }
     return plan;
   }
