@@ -109,6 +109,11 @@ TEST(Jam, AChainPulledTautLosesTimeAndIsProven) {
     EXPECT_GT(lost, 0.0);
     EXPECT_LT(steps.back().time, taut);
     EXPECT_LE(farthest_at_once(steps), 1.1 * kContactDistance);
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      if (steps[k - 1].lasted < 0.1 * steps[k - 1].time_lost) {
+        EXPECT_LE(steps[k].events, 1u) << "the jam is known at step " << k;
+      }
+    }
     EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven) << chain.around;
   }
 }

@@ -24,8 +24,8 @@ struct Plan;
 /// Whether contacts add no energy over a plan, to the precision of plans. True where ties, forces,
 /// robots, belts or scripts may add some.
 ///
-/// Solutions add none. But a body that turns by half a radian in a plan ends elsewhere than its
-/// contacts were solved.
+/// limit_energy() leaves room for the changes of contacts that turn, as tops need it. On a body that
+/// turns by half a radian in a plan it leaves too much.
 [[nodiscard]] bool contacts_add_no_energy(const IslandState& state, const Plan& plan,
                                           const ContactProblem& problem, double span);
 

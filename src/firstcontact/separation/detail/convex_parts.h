@@ -65,8 +65,8 @@ struct ConvexPart {
 /// supports along those directions. It is concave in s, as supports are convex. Its least value is
 /// therefore at one end of the window.
 ///
-/// @param n     [-]  from A to B, unit up to rounding
-/// @param half  half the length of the window
+/// @param n     [-]  from A to B, unit up to rounding.
+/// @param half  [s]  half the length of the window.
 [[nodiscard]] GapBound convex_gap_along(const Eigen::Vector3d& n, const ConvexPart& A,
                                         const ConvexPart& B, double half);
 
@@ -96,8 +96,8 @@ struct ConvexClosest {
 /// directions, the widest gap is searched for: the difference of the farthest points is its slope,
 /// which is precise, too. No direction proves anything.
 ///
-/// @param n       [-]  near which the widest gap is searched for
-/// @param accept  whether a direction is good enough
+/// @param n       [-]  a direction; the widest gap is searched for near it
+/// @param accept  returns whether a direction is good enough
 void offer_normals(const ConvexPart& A, const ConvexPart& B, const Eigen::Vector3d& n,
                    const std::function<bool(const Eigen::Vector3d&)>& accept);
 
