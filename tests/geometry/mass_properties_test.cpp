@@ -113,9 +113,25 @@ TEST(MassProperties, OfAThickenedEdgeFollowItsPlace) {
               1e-14);
 }
 
-TEST(MassProperties, OfAnEnclosedCylinderAreWithinItsError) {
+// The oracle are the triangles around them, ever finer.
+TEST(MassProperties, OfCurvedBodiesAreThoseOfFineTriangles) {
+  const Vector3d radii(0.3, 0.7, 0.5);
+  for (const double error : {1e-3, 1e-4}) {
+    for (const Shape& shape : {make_cylinder(0.7, 0.4, error), make_cone(0.7, 1.9, error),
+                               make_ellipsoid(radii, 4.0 * error)}) {
+      expect_near(mass_properties(shape), mass_properties(shape.as_triangles()), 60.0 * error);
+      EXPECT_LT(mass_properties(shape).volume, mass_properties(shape.as_triangles()).volume);
+    }
+  }
+  const double m = kPi * 0.25 * 2.0;
+  const double across = m * (3.0 * 0.25 + 4.0) / 12.0;
+  expect_near(mass_properties(make_cylinder(0.5, 2.0, 1e-2)),
+              {m, Vector3d::Zero(), diagonal(across, across, 0.125 * m)}, 1e-15);
+}
+
+TEST(MassProperties, OfAPrismAroundACylinderAreWithinItsError) {
   const double error = 1e-4;
-  const MassProperties got = mass_properties(make_cylinder(1.0, 2.0, error));
+  const MassProperties got = mass_properties(make_cylinder(1.0, 2.0, error).as_triangles());
   const auto exact = [](double r) {
     const double m = kPi * r * r * 2.0;
     const double across = m * (3.0 * r * r + 4.0) / 12.0;

@@ -21,6 +21,7 @@
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/simulation_model/detail/common_normal.h>
 #include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
+#include <firstcontact/simulation_model/detail/inscribed_triangles.h>
 #include <firstcontact/simulation_model/detail/round_ellipsoid.h>
 
 #include "simulation/simulated_run.h"
@@ -146,41 +147,65 @@ TEST(CommonNormal, SeparatesNoLessThanItsStart) {
   }
 }
 
-TEST(RoundEllipsoids, PassThroughAllCorners) {
+TEST(RoundEllipsoids, AreTheShapesThemselves) {
   const Vector3d radii(0.1, 0.04, 0.07);
   for (const double error : {5e-4, 1e-4}) {
     const Shape egg = make_ellipsoid(radii, error);
     const auto round = round_ellipsoid_of(egg);
     ASSERT_TRUE(round.has_value());
-    for (const Vector3d& corner : egg.mesh().vertices) {
-      EXPECT_NEAR(corner.cwiseQuotient(round->radii).norm(), 1.0, 1e-12);
+    EXPECT_EQ(round->radii, radii);
+    const Shape inscribed = inscribed_triangles(egg);
+    for (const Vector3d& corner : inscribed.mesh().vertices) {
+      EXPECT_NEAR(corner.cwiseQuotient(radii).norm(), 1.0, 1e-15);
     }
-    EXPECT_GE(round->sag, egg.enclosure_error() * 0.99);
-    EXPECT_LE(round->sag, error);
   }
   EXPECT_FALSE(round_ellipsoid_of(make_cylinder(0.1, 0.2)).has_value());
   EXPECT_FALSE(round_ellipsoid_of(make_sphere(0.1)).has_value());
   EXPECT_FALSE(round_ellipsoid_of(make_box({1.0, 1.0, 1.0})).has_value());
 }
 
-/// A shape as triangles, and what it is exactly.
-struct Other {
-  Shape triangles;
-  Shape exact;
-  std::optional<RoundEllipsoid> ellipsoid = {};
-};
-
-Other egg_of(const Vector3d& radii, double error) {
-  const Shape egg = make_ellipsoid(radii, error);
-  const auto round = round_ellipsoid_of(egg);
-  return {egg.as_triangles(), make_ellipsoid(round->radii), round};
+// Each corner stays where it is along the axis and around it.
+TEST(InscribedTriangles, HaveTheirCornersOnTheShape) {
+  for (const Shape& shape : {make_cylinder(0.3, 0.8), make_cone(0.3, 0.8)}) {
+    const Shape inscribed = inscribed_triangles(shape);
+    ASSERT_EQ(inscribed.mesh().triangles, shape.mesh().triangles);
+    for (std::size_t k = 0; k < shape.mesh().vertices.size(); ++k) {
+      const Vector3d& around = shape.mesh().vertices[k];
+      const Vector3d& on = inscribed.mesh().vertices[k];
+      EXPECT_EQ(on.z(), around.z());
+      if (around.head<2>().norm() > 0.0) {
+        EXPECT_NEAR(on.head<2>().norm(), 0.3, 2e-16);
+        EXPECT_NEAR((on.head<2>() - 0.3 * around.head<2>().normalized()).norm(), 0.0, 2e-16);
+      } else {
+        EXPECT_TRUE(std::abs(on.z()) == 0.4);
+      }
+    }
+    EXPECT_FALSE(inscribed.is_curved());
+  }
+  const Shape box = make_box({1.0, 1.0, 1.0});
+  EXPECT_EQ(&inscribed_triangles(box).mesh(), &box.mesh());
 }
 
-Other plain(const Shape& shape) { return {shape, shape}; }
+/// A shape, and its triangles for contacts.
+struct Other {
+  explicit Other(const Shape& shape)
+      : exact(shape), triangles(inscribed_triangles(shape)), ellipsoid(round_ellipsoid_of(shape)) {}
 
-// The nearest contact of the triangles becomes as near as the distance of the exact sets, which
-// certified advancement finds.
-TEST(EllipsoidContacts, AreAsNearAsTheExactBodies) {
+  [[nodiscard]] PlacedRound at(const Pose& pose) const {
+    return {.shape = &triangles,
+            .is_curved = exact.is_curved(),
+            .ellipsoid = ellipsoid ? &*ellipsoid : nullptr,
+            .pose = pose};
+  }
+
+  Shape exact;
+  Shape triangles;
+  std::optional<RoundEllipsoid> ellipsoid;
+};
+
+// Computed from its features, each nearest contact is as near as the distance of the sets, which
+// certified advancement finds. Bodies of a thousandth of the egg's size are among them.
+TEST(EllipsoidContacts, AreAsNearAsTheBodies) {
   test::Random random(5);
   Workspace workspace;
   std::vector<Contact> contacts;
@@ -190,12 +215,15 @@ TEST(EllipsoidContacts, AreAsNearAsTheExactBodies) {
     const Motion b = Motion::fixed(X_B);
     return distance({A.exact, a}, {B.exact, b}, 0.0, workspace).distance;
   };
-  for (int k = 0; k < test::rounds(50, 5); ++k) {
-    const Other egg = egg_of(any_radii(0.03, 0.1, random), 2e-4);
-    const std::array<Other, 5> others{plain(make_box({0.2, 0.15, 0.1})), plain(make_sphere(0.05)),
-                                      plain(make_capsule(0.03, 0.1)),
-                                      plain(Shape(make_box({0.05, 0.05, 0.05}).mesh(), 0.01)),
-                                      egg_of(any_radii(0.03, 0.1, random), 2e-4)};
+  for (int k = 0; k < test::rounds(140, 14); ++k) {
+    const Other egg(make_ellipsoid(any_radii(0.03, 0.1, random)));
+    const std::array<Other, 7> others{Other(make_box({0.2, 0.15, 0.1})),
+                                      Other(make_sphere(0.05)),
+                                      Other(make_capsule(0.03, 0.1)),
+                                      Other(Shape(make_box({0.05, 0.05, 0.05}).mesh(), 0.01)),
+                                      Other(make_ellipsoid(any_radii(0.03, 0.1, random))),
+                                      Other(make_box({1e-4, 2e-4, 1e-4})),
+                                      Other(make_cylinder(0.05, 0.1))};
     const Other& other = others[static_cast<std::size_t>(k) % others.size()];
     const Pose X_A{Vector3d(5.0, -3.0, 2.0), random.rotation()};
     Pose X_B{X_A.position + random.direction(), random.rotation()};
@@ -206,63 +234,67 @@ TEST(EllipsoidContacts, AreAsNearAsTheExactBodies) {
     }
     const double exact = exact_distance(egg, X_A, other, X_B);
     ASSERT_NEAR(exact, 1e-3, 5e-4);
-    close_features(PlacedShape(egg.triangles, X_A), PlacedShape(other.triangles, X_B), 3e-3,
-                   workspace, contacts);
+    close_points_of_sets(PlacedShape(egg.exact, X_A), PlacedShape(other.exact, X_B), 3e-3,
+                         workspace, contacts);
+    ASSERT_FALSE(contacts.empty());
     double least = std::numeric_limits<double>::infinity();
     for (Contact contact : contacts) {
-      const auto round = make_ellipsoidal(
-          {PlacedRound{.shape = &egg.triangles, .ellipsoid = &*egg.ellipsoid, .pose = X_A},
-           PlacedRound{.shape = &other.triangles,
-                       .ellipsoid = other.ellipsoid ? &*other.ellipsoid : nullptr,
-                       .pose = X_B}},
-          1.0, contact);
-      if (round[0].is_curved()) {
-        least = std::min(least, contact.distance);
-        EXPECT_NEAR((contact.p_WB - contact.p_WA - contact.distance * *contact.n_AB_W).norm(), 0.0,
-                    1e-9);
-      }
+      const auto round = make_ellipsoidal({egg.at(X_A), other.at(X_B)}, contact);
+      EXPECT_EQ(round[0].ellipsoid, &*egg.ellipsoid);
+      least = std::min(least, contact.distance);
+      EXPECT_NEAR((contact.p_WB - contact.p_WA - contact.distance * *contact.n_AB_W).norm(), 0.0,
+                  1e-9);
     }
     EXPECT_NEAR(least, exact, 1e-9) << k;
   }
 }
 
-// Beyond the end of an edge the corner is touched: the contact is then one of that corner, so that
-// it is not moved as one of the edge.
-TEST(EllipsoidContacts, BesideAnEdgeAreOfItsCorner) {
-  const Other egg = egg_of({0.08, 0.06, 0.05}, 1e-3);
-  const Shape bar = make_box({0.2, 0.1, 0.1});
+// The search may give a face of the box. The contact becomes one of the edge or the corner on which
+// it is, so that it is not moved as one of the face.
+TEST(EllipsoidContacts, OnAFaceToWhichTheyAreNotPerpendicularAreOfItsRim) {
+  const Other egg(make_ellipsoid({0.08, 0.06, 0.05}));
+  const Other bar(make_box({0.2, 0.1, 0.1}));
   const Pose X_B{Vector3d::Zero(), Eigen::Quaterniond::Identity()};
-  const Vector3d corner(0.1, 0.05, 0.05);
-  const Vector3d n = Vector3d(1.0, 1.0, 1.0).normalized();
-  const Pose X_A{corner + egg.ellipsoid->farthest(n) + 1e-3 * n, Eigen::Quaterniond::Identity()};
-  int edges = 0;
-  for (std::uint32_t e = 0; e < bar.edge_count(); ++e) {
-    const auto [first, second] = bar.edge(e);
-    const auto& v = bar.mesh().vertices;
-    const bool begins = (v[first] - corner).norm() < 1e-12;
-    if (!begins && (v[second] - corner).norm() > 1e-12) {
-      continue;
-    }
-    ++edges;
-    const Vector3d inwards = (begins ? v[second] - v[first] : v[first] - v[second]).normalized();
+  const auto contact_at = [&](const Vector3d& point, const Vector3d& n, std::uint32_t face) {
+    const Pose X_A{point + egg.ellipsoid->farthest(n) + 1e-3 * n, Eigen::Quaterniond::Identity()};
     Contact contact;
     contact.feature_A = {FeatureType::face, 0, 0};
-    contact.feature_B = {FeatureType::edge, e, 0};
-    contact.p_WB = corner + 1e-4 * inwards;
-    contact.p_WA = contact.p_WB + 1.1e-3 * n;
+    contact.feature_B = {FeatureType::face, face, face};
+    contact.p_WB = point;
+    contact.p_WA = point + 1e-3 * n;
     contact.n_AB_W = -n;
-    contact.distance = 1.1e-3;
-    const auto round = make_ellipsoidal(
-        {PlacedRound{.shape = &egg.triangles, .ellipsoid = &*egg.ellipsoid, .pose = X_A},
-         PlacedRound{.shape = &bar, .pose = X_B}},
-        1.0, contact);
-    ASSERT_TRUE(round[0].is_curved());
-    EXPECT_EQ(contact.feature_B.type, FeatureType::vertex);
-    EXPECT_LE((v[contact.feature_B.index] - corner).norm(), 1e-12);
+    contact.distance = 1e-3;
+    EXPECT_TRUE(make_ellipsoidal({egg.at(X_A), bar.at(X_B)}, contact)[0].is_curved());
     EXPECT_LE((*contact.n_AB_W + n).norm(), 1e-9);
     EXPECT_NEAR(contact.distance, 1e-3, 1e-12);
+    return contact;
+  };
+  const auto& v = bar.exact.mesh().vertices;
+  int corners = 0;
+  int edges = 0;
+  for (std::uint32_t face = 0; face < bar.exact.mesh().triangles.size(); ++face) {
+    for (const std::uint32_t corner : bar.exact.mesh().triangles[face]) {
+      const Contact contact = contact_at(v[corner], v[corner].cwiseSign().normalized(), face);
+      EXPECT_EQ(contact.feature_B.type, FeatureType::vertex);
+      EXPECT_EQ(contact.feature_B.index, corner);
+      ++corners;
+    }
+    const auto& t = bar.exact.mesh().triangles[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d middle = 0.5 * (v[t[k]] + v[t[(k + 1) % 3]]);
+      if ((v[t[k]] - v[t[(k + 1) % 3]]).cwiseAbs().maxCoeff() + 1e-12 <
+          (v[t[k]] - v[t[(k + 1) % 3]]).norm()) {
+        continue;  // The diagonal of a side.
+      }
+      const Vector3d n = middle.cwiseQuotient(Vector3d(0.1, 0.05, 0.05)).normalized();
+      const Contact contact = contact_at(middle, n, face);
+      EXPECT_EQ(contact.feature_B.type, FeatureType::edge);
+      EXPECT_EQ(contact.feature_B.index, bar.exact.edge_index(t[k], t[(k + 1) % 3]));
+      ++edges;
+    }
   }
-  EXPECT_GE(edges, 3);
+  EXPECT_EQ(corners, 36);
+  EXPECT_EQ(edges, 24);
 }
 
 // Flat and long ones too are found in few steps, not only within the most that are allowed.

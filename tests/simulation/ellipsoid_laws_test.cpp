@@ -10,9 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/record/run_step.h>
-#include <firstcontact/simulation_model/detail/round_ellipsoid.h>
 
 #include "simulation/simulated_run.h"
 
@@ -27,22 +25,20 @@ constexpr double kGravity = 9.81;  // [m/s^2]
 struct Rocking {
   Vector3d radii = {0.1, 0.08, 0.05};  // [m]
   double moment = 0.0;                 // [m^2]  Over the mass, about y.
-  Vector3d rolling = {};               // [m]  The ellipsoid through the corners.
   double lean = 0.3;                   // [rad]
 
   Rocking() {
     moment = (radii.x() * radii.x() + radii.z() * radii.z()) / 5.0;
-    rolling = round_ellipsoid_of(make_ellipsoid(radii))->radii;
   }
 
   [[nodiscard]] double height(double q) const {
-    return std::hypot(rolling.x() * std::sin(q), rolling.z() * std::cos(q));
+    return std::hypot(radii.x() * std::sin(q), radii.z() * std::cos(q));
   }
 
   /// Computes q'' from q and w = q': 2 T = (moment + h^2 + h'^2) w^2, and the potential is g h.
   [[nodiscard]] double acceleration(double q, double w) const {
     const double h = height(q);
-    const double squares = rolling.x() * rolling.x() - rolling.z() * rolling.z();
+    const double squares = radii.x() * radii.x() - radii.z() * radii.z();
     const double slope = squares * std::sin(q) * std::cos(q) / h;
     const double bend = (squares * std::cos(2.0 * q) - slope * slope) / h;
     const double inertia = moment + h * h + slope * slope;
@@ -122,9 +118,7 @@ struct Energies {
 Energies energies_of(const std::vector<double>& radii, double lean, double step,
                      const std::string& velocity, double friction) {
   constexpr double kGap = 1e-4;  // [m]
-  const Vector3d around =
-      round_ellipsoid_of(make_ellipsoid({radii[0], radii[1], radii[2]}, 1e-4))->radii;
-  const double height = std::hypot(around.x() * std::sin(lean), around.z() * std::cos(lean));
+  const double height = std::hypot(radii[0] * std::sin(lean), radii[2] * std::cos(lean));
   Simulator s = test::simulator(
       test::kFloor + R"(, {"name": "lens", "shape": {"ellipsoid": {"radii": )" +
           test::numbers(radii) + R"(, "enclosure_error": 1e-4}}, "pose": {"position": )" +

@@ -30,7 +30,7 @@ inline detail::SimBody tetrahedron(std::mt19937& rng) {
     mesh.vertices.push_back(random_vector(rng, 1.0));
   }
   mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-  detail::SimBody body{.shape = Shape(mesh)};
+  detail::SimBody body{.shape = Shape(mesh), .surface = Shape(mesh)};
   body.inertia.p_BC = random_vector(rng, 0.5);
   for (const Eigen::Vector3d& v : mesh.vertices) {
     body.box_B.extend(v);

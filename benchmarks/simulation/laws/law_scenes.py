@@ -44,26 +44,6 @@ def tube(sides, inner, outer, length):
     return {"vertices": vertices, "triangles": triangles}
 
 
-def around_globe(relative_error):
-    """By how much the corners of the triangles around an ellipsoid are farther out than it is, as the tool makes them:
-    the planes of all triangles pass outside."""
-    rings = math.ceil(0.5 * math.pi / math.sqrt(0.9 * relative_error))
-
-    def corner(ring, sector):
-        polar, around = math.pi * ring / rings, math.pi * sector / rings
-        return [math.sin(polar) * math.cos(around), math.sin(polar) * math.sin(around), math.cos(polar)]
-    nearest = 1.0
-    for ring in range(rings):
-        for a, b, c in [(corner(ring, 0), corner(ring, 1), corner(ring + 1, 1)),
-                        (corner(ring, 0), corner(ring + 1, 1), corner(ring + 1, 0))]:
-            u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
-            normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-            length = math.sqrt(sum(x * x for x in normal))
-            if length > 1e-12:
-                nearest = min(nearest, abs(sum(x * y for x, y in zip(normal, a))) / length)
-    return 1.0 / nearest
-
-
 def scene(bodies, duration, step, friction=0.0, gravity=G, contact_distance=1e-4, **more):
     settings = {"duration": duration, "step": step, "friction": friction, "gravity": [0, 0, -gravity],
                 "contact_distance": contact_distance, **more.pop("simulation", {})}

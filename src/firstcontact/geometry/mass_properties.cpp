@@ -13,6 +13,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/convex_core.h>
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/detail/thick_hull.h>
 #include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/weld.h>
@@ -181,10 +183,40 @@ MassProperties of_polyhedron(const Mesh& mesh, const Vector3d& origin, double si
   return {sign * six_volume / 6.0, origin + p_OC, second.trace() * Matrix3d::Identity() - second};
 }
 
+/// A solid of revolution about z, or an ellipsoid, from its integrals.
+///
+/// @param p_BC     [m]
+/// @param moments  [m^2]  of inertia about C, by the volume
+MassProperties of_moments(double volume, const Vector3d& p_BC, const Vector3d& moments) {
+  return {volume, p_BC, (volume * moments).asDiagonal()};
+}
+
+/// The integrals over a cylinder, a cone or an ellipsoid.
+MassProperties of_curved(const ConvexCore& core) {
+  constexpr double kPi = std::numbers::pi;
+  const Vector3d squares = core.size.cwiseAbs2();
+  if (core.kind == ConvexKind::ellipsoid) {
+    return of_moments(4.0 / 3.0 * kPi * core.size.prod(), core.origin,
+                      (Vector3d::Constant(squares.sum()) - squares) / 5.0);
+  }
+  const double disc = kPi * squares.x();
+  const double length = 2.0 * core.size.z();
+  if (core.kind == ConvexKind::cylinder) {
+    const double across = (3.0 * squares.x() + length * length) / 12.0;
+    return of_moments(disc * length, core.origin, {across, across, 0.5 * squares.x()});
+  }
+  const double across = (12.0 * squares.x() + 3.0 * length * length) / 80.0;
+  return of_moments(disc * length / 3.0, core.origin - 0.25 * length * Vector3d::UnitZ(),
+                    {across, across, 0.3 * squares.x()});
+}
+
 }  // namespace
 
 MassProperties mass_properties(const Shape& shape) {
   const FloatEnvironmentGuard guard;
+  if (shape.is_curved() && shape.radius() == 0.0) {
+    return of_curved(shape.convex_set()->core());
+  }
   Mesh mesh = shape.mesh();
   weld(mesh);
   const std::vector<Vector3d> places = used_places(mesh);

@@ -27,8 +27,8 @@ struct MassProperties {
 ///
 /// Triangles may all face outwards or all inwards; those around a cavity face into it. Space that
 /// they wind around twice, as components that overlap do, counts twice. A radius around another
-/// closed mesh has no mass: the polyhedron has it all. A curved body enclosed by triangles has the volume
-/// of the triangles.
+/// closed mesh has no mass: the polyhedron has it all. Cylinders, cones and ellipsoids (Shape::is_curved()) have
+/// the integrals of the curved body, not those of the triangles around it.
 ///
 /// Precise far from the body frame's origin too: integrals are relative to the mesh.
 ///

@@ -90,6 +90,23 @@ void close_features(const PlacedShape& A, const PlacedShape& B, double band, Wor
       });
 }
 
+void close_points_of_sets(const PlacedShape& A, const PlacedShape& B, double band,
+                          Workspace& workspace, std::vector<Contact>& contacts) {
+  require_band(band, 0.0);
+  assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
+  const FloatEnvironmentGuard guard;
+  const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
+  collect_in_order(
+      A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
+        const detail::RestingPair motion(first.path(), second.path());
+        const detail::MovingPair pair(first.shape(), second.shape(), motion);
+        const detail::ContactFrame frame{first.shape(), second.shape(), pair, 0.0,
+                                         motion.origin(0.0), 0.0};
+        detail::collect_contacts(frame, first.shape().radius() + second.shape().radius() + band,
+                                 ContactState::all.most, workspace.data(), contacts);
+      });
+}
+
 void detail::close_features_by_front(const PlacedShape& A, const PlacedShape& B, double band,
                                      double beside, BoxFront& front, Workspace& workspace,
                                      std::vector<Contact>& contacts) {

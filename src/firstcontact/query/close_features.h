@@ -41,4 +41,16 @@ FIRSTCONTACT_API void close_features(const PlacedShape& A, const PlacedShape& B,
                                      Workspace& workspace, std::vector<Contact>& contacts,
                                      double beside = 0.0);
 
+/// Finds the closest points of two shapes at rest where curved shapes are the convex sets that they
+/// are, as first_contact() takes them.
+///
+/// A convex set has one pair of points with each triangle of the other shape, or with the other
+/// set. Other shapes are asked as by close_features().
+///
+/// @param A,B     shapes that do not deform
+/// @param band    [m]  finite, >= 0; radii are included in distances
+/// @throws std::invalid_argument if the band is outside its range.
+FIRSTCONTACT_API void close_points_of_sets(const PlacedShape& A, const PlacedShape& B, double band,
+                                           Workspace& workspace, std::vector<Contact>& contacts);
+
 }  // namespace firstcontact

@@ -78,7 +78,8 @@ std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& 
     members.push_back({.name = body.name,
                        .shape = shape,
                        .p_BC = p_BC,
-                       .tree = detail::build_box_tree(shape.mesh(), p_BC),
+                       .tree = detail::build_box_tree(shape, p_BC),
+                       .round = detail::round_set_of(shape, p_BC),
                        .is_free = body.free.has_value(),
                        .start = fixed != nullptr ? fixed->pose : motion.pose(0.0)});
     add_script(body, loaded.scene.duration, members.back());
@@ -180,13 +181,12 @@ class Verification {
   }
 
   void require_outside(const BodyPair& pair, std::size_t solid, std::size_t body) {
-    if (!members_[solid].shape.is_solid() || !going()) {
+    // The inside of a curved body takes part in the proof of each step.
+    if (!members_[solid].shape.is_solid() || members_[solid].round || !going()) {
       return;
     }
-    const Shape& shape = members_[body].shape;
-    for (const std::uint32_t v : shape.component_vertices()) {
-      const std::uint32_t vertex = shape.hierarchy().vertex_index[v];
-      const std::optional<bool> inside = is_inside(solid, body, shape.mesh().vertices[vertex]);
+    for (const Eigen::Vector3d& point : detail::points_of_components(members_[body].shape)) {
+      const std::optional<bool> inside = is_inside(solid, body, point);
       if (inside != false) {
         stop(inside ? ProofVerdict::refuted : ProofVerdict::not_proven,
              names(pair) + (inside ? " are inside each other at the start."
@@ -223,7 +223,9 @@ class Verification {
     std::vector<Eigen::Vector3d> points;
     for (std::size_t b = 0; b < members_.size(); ++b) {
       const detail::BodyInstant now = at_start(b).pieces.front().instant(0.0, {0.0, 0.0, 0.0});
-      points.emplace_back(now.pivot + now.R * members_[b].tree.triangles.front().front());
+      const RunMember& member = members_[b];
+      points.emplace_back(now.pivot + now.R * (member.round ? member.round->centre
+                                                            : member.tree.triangles[0][0]));
     }
     constexpr double kSlack = 1.0 + 0x1p-30;
     for (std::size_t a = 0; a < points.size(); ++a) {
@@ -334,7 +336,8 @@ class Verification {
       return detail::CoverBody{.tree = members_[b].tree,
                                .pieces = pieces,
                                .thickness = members_[b].shape.radius(),
-                               .jump = step.bodies[b].jump};
+                               .jump = step.bodies[b].jump,
+                               .round = members_[b].round ? &*members_[b].round : nullptr};
     };
     const Pieces pieces_A = pieces_of(pair[0]);
     const Pieces pieces_B = pieces_of(pair[1]);

@@ -224,6 +224,25 @@ bool ImpactSearch::cannot_reach(const Candidate& pair, double distance) {
   return way + kRounding * size < distance;
 }
 
+/// The manifold points of the contact that was just found.
+///
+/// A first contact of convex sets has one point, where the line of a cylinder has two.
+std::vector<ManifoldPoint> ImpactSearch::touches_at(const Candidate& pair,
+                                                    const std::array<Pose, 2>& poses) {
+  const BodyPair bodies = bodies_of(pair);
+  if (!are_curved(state_.model, bodies)) {
+    return touches_among(state_.model, bodies, poses, pair.margin, answer_.contacts);
+  }
+  const auto surface = [&](std::size_t side) {
+    return PlacedShape(state_.model.bodies[bodies[side]].surface, poses[side]);
+  };
+  Manifold manifold =
+      ManifoldFinder(state_.model, workspace_).find(bodies, surface(0), surface(1), pair.margin);
+  const double most = least_gap(manifold) + state_.model.distances.tolerance;
+  std::erase_if(manifold.touches, [&](const ManifoldPoint& touch) { return touch.gap > most; });
+  return manifold.touches;
+}
+
 /// Makes the impact of the contact that was just found, as a constraint on the span.
 Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   Impact hit{.bodies = bodies_of(pair), .t = answer_.t};
@@ -240,8 +259,7 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
     seams_.emplace(state_, workspace_,
                    [this](std::size_t body) { return pose_at(body, seam_time_); });
   }
-  for (ManifoldPoint& touch :
-       touches_among(state_.model, hit.bodies, poses, pair.margin, answer_.contacts)) {
+  for (ManifoldPoint& touch : touches_at(pair, poses)) {
     const bool is_seam = seams_->level(touch);
     PredictedContact ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());

@@ -85,6 +85,8 @@ class ImpactSearch {
   }
   [[nodiscard]] std::optional<Impact> ask(Candidate& pair);
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
+  [[nodiscard]] std::vector<ManifoldPoint> touches_at(const Candidate& pair,
+                                                      const std::array<Pose, 2>& poses);
   [[nodiscard]] Impact hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
   [[nodiscard]] Pose pose_at(std::size_t body, double t);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;

@@ -37,7 +37,8 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
   const double slow = least_speed();
   Vector3d friction = Vector3d::Zero();
   double most = 0.0;
-  bool slides = false;
+  double slip = 0.0;
+  double rolling = slow;  // Where one contact rolls, the bodies turn, and others slip as much.
   for (std::size_t k = first; k < end; ++k) {
     const ContactPoint& contact = problem_.contacts[k];
     const Vector3d& impulse = last_->velocities.impulses[k];
@@ -45,12 +46,14 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
     if ((at_end.tail<2>() - contact.sticking_velocity).norm() > slow) {
       return false;
     }
-    slides =
-        slides || (impulse[0] > 0.0 && slip_before(k).norm() > std::max(slow, slip_of_rolling(k)));
+    if (impulse[0] > 0.0) {
+      slip = std::max(slip, slip_before(k).norm());
+      rolling = std::max(rolling, slip_of_rolling(k));
+    }
     friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
     most += contact.friction * impulse[0];
   }
-  return slides && friction.norm() < 0.5 * most;
+  return slip > rolling && friction.norm() < 0.5 * most;
 }
 
 /// [m/s]  The slip of an acting contact when the plan begins.

@@ -17,10 +17,10 @@ namespace {
 /// A body for manifolds.
 struct RestingBody {
   RestingBody(const SimBody& body, const Pose& X_WB)
-      : hull(body, X_WB, Move()), shape(body.shape, X_WB) {}
+      : hull(body, X_WB, Move()), surface(body.surface, X_WB) {}
 
   SweptHull hull;
-  PlacedShape shape;
+  PlacedShape surface;
 };
 
 }  // namespace
@@ -152,7 +152,7 @@ void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Works
                     (B.hull.p_WC - A.hull.p_WC).normalized())) {
       return;
     }
-    Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
+    Manifold manifold = finder.find(pair, A.surface, B.surface, margin);
     if (manifold.gap <= model.distances.band || !manifold.touches.empty()) {
       carry_impulses(before, smaller_reach(model, pair), manifold);
       manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // Most are last.

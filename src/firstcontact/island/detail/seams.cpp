@@ -104,7 +104,7 @@ std::vector<std::size_t> SeamFinder::bodies_near(const Vector3d& point,
 /// Adds the directions from a feature into the surface around it.
 void SeamFinder::add_directions(std::size_t body, const Feature& feature,
                                 std::vector<Vector3d>& directions) const {
-  const Shape& shape = state_.model.bodies[body].shape;
+  const Shape& shape = state_.model.bodies[body].surface;
   const Eigen::Quaterniond R = pose_of_(body).rotation.normalized();
   const auto add = [&](const Vector3d& direction_B) {
     if (direction_B.any()) {
@@ -136,7 +136,7 @@ bool SeamFinder::add_surface_near(std::size_t body, const Vector3d& point,
     return false;
   }
   const PlacedShape at(point_shape(), {point, Eigen::Quaterniond::Identity()});
-  const PlacedShape other(state_.model.bodies[body].shape, pose);
+  const PlacedShape other(state_.model.bodies[body].surface, pose);
   close_features(at, other, state_.model.distances.band, workspace_, contacts_);
   const auto is_face = [](const Contact& contact) {
     return contact.feature_B.type == FeatureType::face;

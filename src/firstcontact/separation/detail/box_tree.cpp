@@ -82,4 +82,14 @@ BoxTree build_box_tree(const Mesh& mesh, const Eigen::Vector3d& p_BC) {
   return Builder(mesh, p_BC).build();
 }
 
+BoxTree build_box_tree(const Shape& shape, const Eigen::Vector3d& p_BC) {
+  BoxTree tree = build_box_tree(shape.mesh(), p_BC);
+  if (shape.is_curved()) {
+    tree.nodes.resize(1);
+    tree.nodes.front().is_leaf = true;
+    tree.triangles.clear();
+  }
+  return tree;
+}
+
 }  // namespace firstcontact::detail

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
 
 namespace firstcontact::detail {
 
@@ -36,5 +37,9 @@ struct BoxTree {
 /// @param mesh  at least one triangle
 /// @param p_BC  [m]  the pivot
 [[nodiscard]] BoxTree build_box_tree(const Mesh& mesh, const Eigen::Vector3d& p_BC);
+
+/// Builds the boxes over a shape; of a curved one (Shape::is_curved()) a single box without
+/// triangles.
+[[nodiscard]] BoxTree build_box_tree(const Shape& shape, const Eigen::Vector3d& p_BC);
 
 }  // namespace firstcontact::detail

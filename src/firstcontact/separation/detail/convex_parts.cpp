@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/convex_set.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -231,6 +233,14 @@ Vector3d widest(const Vector3d& n, const ConvexPart& A, const ConvexPart& B,
 }
 
 }  // namespace
+
+std::optional<RoundSet> round_set_of(const Shape& shape, const Vector3d& pivot) {
+  if (!shape.is_curved()) {
+    return std::nullopt;
+  }
+  const ConvexCore& core = shape.convex_set()->core();
+  return RoundSet{.kind = core.kind, .size = core.size, .centre = core.origin - pivot};
+}
 
 double RoundSet::support(const Vector3d& m) const {
   const double shift = m.dot(centre);

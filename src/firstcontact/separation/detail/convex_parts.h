@@ -4,11 +4,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <variant>
 
 #include <Eigen/Core>
 
 #include <firstcontact/geometry/convex_core.h>
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/separation/detail/closest_on_triangles.h>
 #include <firstcontact/separation/detail/window_body.h>
 
@@ -41,6 +43,12 @@ struct RoundSet {
   /// set S and both relative to its centre: (1 - e) S + e B is a part of (1 - e) S + e S = S.
   [[nodiscard]] RoundSet shrunk(double share) const;
 };
+
+/// The exact core of a curved shape (Shape::is_curved()); none of another.
+///
+/// @param pivot  [m]  in the frame of the shape
+[[nodiscard]] std::optional<RoundSet> round_set_of(const Shape& shape,
+                                                   const Eigen::Vector3d& pivot);
 
 /// A convex part of a body in the middle of a window.
 struct ConvexPart {

@@ -3,6 +3,9 @@
 #include <array>
 #include <cstddef>
 
+#include <firstcontact/geometry/convex_set.h>
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -80,6 +83,17 @@ std::optional<bool> is_inside(const Mesh& mesh, const IntervalVector3& p) {
     }
   }
   return std::nullopt;
+}
+
+std::vector<Eigen::Vector3d> points_of_components(const Shape& shape) {
+  if (shape.is_curved()) {
+    return {shape.convex_set()->core().origin};
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint32_t v : shape.component_vertices()) {
+    points.push_back(shape.mesh().vertices[shape.hierarchy().vertex_index[v]]);
+  }
+  return points;
 }
 
 }  // namespace firstcontact::detail

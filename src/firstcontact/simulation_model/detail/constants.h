@@ -51,6 +51,8 @@ inline constexpr double kHeldShare = 0.5;
 /// that is crushed would halve its gap to nothing.
 inline constexpr double kJammedOfDistance = 1e-3;
 inline constexpr double kHeldShareOfJammed = 0.99;
+/// [-]  Curved bodies that are nearer than this at the start count as bodies that meet.
+inline constexpr double kNearOfMeeting = 1e-6;
 
 // Manifold points of a pair, by the reach of the smaller body.
 

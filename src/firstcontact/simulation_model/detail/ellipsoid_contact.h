@@ -1,5 +1,5 @@
 /// @file
-/// Contacts of the ellipsoids that triangles stand for.
+/// Contacts of ellipsoids.
 
 #pragma once
 
@@ -10,18 +10,16 @@
 
 namespace firstcontact::detail {
 
-/// Replaces the triangles of ellipsoids in a contact by the ellipsoids.
+/// Makes a contact of the exact search one of the other body's feature.
 ///
-/// The closest points, the normal and the distance become theirs. Where the nearest point of an
-/// edge is its end, the feature becomes that corner.
+/// The search knows points to its rounding. A point on an edge may count as one of a face beside
+/// it. So a face to which the normal is not perpendicular becomes its nearest edge or corner. Then
+/// the closest points, the normal and the distance are computed from the features. They stay as the
+/// search found them where that gives another distance.
 ///
-/// An ellipsoid is outside of its triangles, so the distance becomes smaller. The contact stays as
-/// it is where the distance becomes larger, or smaller by more than the sag. Then another feature
-/// of the other body is the nearest one.
-///
-/// @param most_sag  [m]  of an ellipsoid
-/// @returns the ellipsoids on which the contact then is
+/// @param bodies  at least one is an ellipsoid
+/// @returns the ellipsoids on which the contact is
 std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& bodies,
-                                             double most_sag, Contact& contact);
+                                             Contact& contact);
 
 }  // namespace firstcontact::detail

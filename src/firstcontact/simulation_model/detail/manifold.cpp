@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/detail/spatial_hash.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/detail/facing_cell.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
@@ -112,7 +114,8 @@ class FacingBodies {
  public:
   FacingBodies(const SimulationModel& model, const BodyPair& bodies,
                const std::array<Pose, 2>& poses)
-      : A_(*model.neighbours[bodies[0]]),
+      : shapes_{&model.bodies[bodies[0]].shape, &model.bodies[bodies[1]].shape},
+        A_(*model.neighbours[bodies[0]]),
         B_(*model.neighbours[bodies[1]]),
         R_AW_(poses[0].rotation.normalized().conjugate()),
         R_BW_(poses[1].rotation.normalized().conjugate()) {}
@@ -134,7 +137,18 @@ class FacingBodies {
            B_.is_outermost(contact.feature_B, R_BW_ * -n_W);
   }
 
+  /// Whether one body bulges at a point of convex sets. A set always does; the triangles of a body
+  /// beside it may have a nearer neighbour.
+  [[nodiscard]] bool is_outermost(std::size_t side, const ManifoldPoint& touch) const {
+    if (is_asked_as_convex(*shapes_[side], *shapes_[1 - side])) {
+      return true;
+    }
+    return side == 0 ? A_.is_outermost(touch.feature_A, R_AW_ * touch.normal)
+                     : B_.is_outermost(touch.feature_B, R_BW_ * -touch.normal);
+  }
+
  private:
+  std::array<const Shape*, 2> shapes_;
   const SurfaceNeighbours& A_;
   const SurfaceNeighbours& B_;
   Eigen::Quaterniond R_AW_;
@@ -149,8 +163,9 @@ struct TouchMaker {
     for (std::size_t s = 0; s < 2; ++s) {
       const SimBody& body = model.bodies[pair[s]];
       surfaces[s] = {
-          .shape = &body.shape, .neighbours = model.neighbours[pair[s]].get(), .pose = poses[s]};
-      placed[s] = {.shape = &body.shape,
+          .shape = &body.surface, .neighbours = model.neighbours[pair[s]].get(), .pose = poses[s]};
+      placed[s] = {.shape = &body.surface,
+                   .is_curved = body.shape.is_curved(),
                    .circles = model.round_circles[pair[s]].get(),
                    .ellipsoid = body.ellipsoid ? &*body.ellipsoid : nullptr,
                    .pose = poses[s]};
@@ -159,10 +174,20 @@ struct TouchMaker {
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
     lay_on_face(surfaces, contact);
-    std::array<RoundFeature, 2> round = make_ellipsoidal(placed, most_sag, contact);
-    if (!round[0].is_curved() && !round[1].is_curved()) {
-      round = make_round(placed, most_sag, contact);
-    }
+    const std::array<RoundFeature, 2> round = make_round(placed, most_sag, contact);
+    return point_of(contact, round);
+  }
+
+  /// Makes a point of a contact of the exact search.
+  [[nodiscard]] ManifoldPoint make_of_sets(Contact contact) const {
+    const bool has_ellipsoid = placed[0].ellipsoid != nullptr || placed[1].ellipsoid != nullptr;
+    const auto round =
+        has_ellipsoid ? make_ellipsoidal(placed, contact) : std::array<RoundFeature, 2>{};
+    return point_of(contact, round);
+  }
+
+  [[nodiscard]] ManifoldPoint point_of(const Contact& contact,
+                                       const std::array<RoundFeature, 2>& round) const {
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,
@@ -250,33 +275,6 @@ void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
   by_place.add(touch.point, same);
 }
 
-/// Drops corners of an ellipsoid's triangles beside a plane that the ellipsoid touches.
-///
-/// They are inside of the ellipsoid, and another corner of the triangles is nearer.
-///
-/// @param same  [m]  planes that are less apart are one
-void drop_inner_corners(const TouchMaker& maker, double same, std::vector<ManifoldPoint>& touches) {
-  for (std::size_t s = 0; s < 2; ++s) {
-    if (maker.placed[s].ellipsoid == nullptr) {
-      continue;
-    }
-    const auto point_of_other = [&](const ManifoldPoint& touch) -> Vector3d {
-      return touch.point + (s == 0 ? 0.5 : -0.5) * touch.gap * touch.normal;
-    };
-    const auto is_inner = [&](const ManifoldPoint& touch, const ManifoldPoint& of_ellipsoid) {
-      const Vector3d apart = point_of_other(touch) - point_of_other(of_ellipsoid);
-      return of_ellipsoid.round[s].ellipsoid != nullptr &&
-             touch.normal.dot(of_ellipsoid.normal) >= kSameNormal &&
-             std::abs(of_ellipsoid.normal.dot(apart)) <= same;
-    };
-    const std::vector<ManifoldPoint> all = touches;
-    std::erase_if(touches, [&](const ManifoldPoint& touch) {
-      return touch.round[s].ellipsoid == nullptr &&
-             std::ranges::any_of(all, [&](const auto& other) { return is_inner(touch, other); });
-    });
-  }
-}
-
 /// The manifold points among very many contacts.
 ///
 /// @param beside  [m]  width of a neighbourhood
@@ -335,7 +333,6 @@ std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const Bod
     for (const Contact* contact : outermost) {
       keep_once(maker.make(*contact), size, by_place, touches);
     }
-    drop_inner_corners(maker, kSameGap * model.distances.least, touches);
     return touches;
   }
   for (const Contact& contact : contacts) {
@@ -354,21 +351,64 @@ double least_gap(const Manifold& manifold) {
   return least;
 }
 
+bool are_curved(const SimulationModel& model, const BodyPair& bodies) {
+  return model.bodies[bodies[0]].shape.is_curved() || model.bodies[bodies[1]].shape.is_curved();
+}
+
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  close_features(A, B, margin + near_of(model_, bodies), workspace_, contacts_,
-                 kNeighbourhood * smaller_reach(model_, bodies));
-  for (const Contact& contact : contacts_) {
-    manifold.gap = std::min(manifold.gap, contact.distance - margin);
+  if (!model_.bodies[bodies[0]].ellipsoid && !model_.bodies[bodies[1]].ellipsoid) {
+    find_among_triangles(A, B, margin, manifold);
   }
-  manifold.touches = touches_among(model_, bodies, {A.pose(), B.pose()}, margin, contacts_);
+  if (are_curved(model_, bodies)) {
+    add_of_sets({A.pose(), B.pose()}, margin, manifold);
+  }
   std::erase_if(manifold.touches,
                 [&](const ManifoldPoint& touch) { return touch.gap > model_.distances.band; });
   if (manifold.touches.empty() && manifold.gap > model_.distances.band) {
     manifold.gap = std::numeric_limits<double>::infinity();
   }
   return manifold;
+}
+
+void ManifoldFinder::find_among_triangles(const PlacedShape& A, const PlacedShape& B, double margin,
+                                          Manifold& manifold) {
+  const BodyPair& bodies = manifold.bodies;
+  close_features(A, B, margin + near_of(model_, bodies), workspace_, contacts_,
+                 kNeighbourhood * smaller_reach(model_, bodies));
+  for (const Contact& contact : contacts_) {
+    manifold.gap = std::min(manifold.gap, contact.distance - margin);
+  }
+  manifold.touches = touches_among(model_, bodies, {A.pose(), B.pose()}, margin, contacts_);
+}
+
+/// Adds the points of convex sets: all of an ellipsoid, which has no others, and else those that
+/// are nearer than all that the triangles have. The gap is that of the sets.
+void ManifoldFinder::add_of_sets(const std::array<Pose, 2>& poses, double margin,
+                                 Manifold& manifold) {
+  const BodyPair& bodies = manifold.bodies;
+  const TouchMaker maker(model_, bodies, poses, margin);
+  const FacingBodies facing(model_, bodies, poses);
+  close_points_of_sets({model_.bodies[bodies[0]].shape, poses[0]},
+                       {model_.bodies[bodies[1]].shape, poses[1]}, margin + model_.distances.band,
+                       workspace_, contacts_);
+  const double nearer = least_gap(manifold) - kSameGap * model_.distances.least;
+  const double size = smaller_reach(model_, bodies);
+  SpatialHash by_place(kSamePlace * size);
+  std::vector<ManifoldPoint> added;
+  manifold.gap = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : contacts_) {
+    manifold.gap = std::min(manifold.gap, contact.distance - margin);
+    if (!contact.n_AB_W || !(contact.distance - margin < nearer)) {
+      continue;
+    }
+    const ManifoldPoint touch = maker.make_of_sets(contact);
+    if (facing.is_outermost(0, touch) && facing.is_outermost(1, touch)) {
+      keep_once(touch, size, by_place, added);
+    }
+  }
+  std::ranges::copy(added, std::back_inserter(manifold.touches));
 }
 
 bool comes_before(const ManifoldPoint& x, const ManifoldPoint& y) {

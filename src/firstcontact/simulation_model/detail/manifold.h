@@ -56,6 +56,9 @@ struct ManifoldPoint {
                                                        double margin,
                                                        const std::vector<Contact>& contacts);
 
+/// Whether one of two bodies is a curved shape. Their gap is then that of convex sets.
+[[nodiscard]] bool are_curved(const SimulationModel& model, const BodyPair& bodies);
+
 /// The manifold points of two bodies at rest at these poses, and the least gap of all their
 /// features.
 struct Manifold {
@@ -75,12 +78,16 @@ class ManifoldFinder {
 
   /// Finds the manifold of a pair.
   ///
-  /// @param A,B     the shapes of the pair
+  /// @param A,B     the surfaces of the pair (SimBody::surface)
   /// @param margin  [m]  of the pair
   [[nodiscard]] Manifold find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin);
 
  private:
+  void find_among_triangles(const PlacedShape& A, const PlacedShape& B, double margin,
+                            Manifold& manifold);
+  void add_of_sets(const std::array<Pose, 2>& poses, double margin, Manifold& manifold);
+
   const SimulationModel& model_;
   Workspace& workspace_;
   std::vector<Contact> contacts_;

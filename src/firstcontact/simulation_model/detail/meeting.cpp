@@ -4,10 +4,38 @@
 
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
+namespace {
+
+/// Whether two bodies are proven to be farther apart than a margin.
+///
+/// The lower bound of the distance of a curved body is that of triangles around it. A first contact
+/// takes the body exactly.
+///
+/// @param margin  [m]
+bool are_apart(const SimulationModel& model, const BodyPair& pair,
+               const std::vector<RigidState>& states, double margin, Workspace& workspace) {
+  const Motion motion_A = Motion::fixed(states[pair[0]].X_WB);
+  const Motion motion_B = Motion::fixed(states[pair[1]].X_WB);
+  const MovingShape A{model.bodies[pair[0]].shape, motion_A};
+  const MovingShape B{model.bodies[pair[1]].shape, motion_B};
+  if (!are_curved(model, pair)) {
+    return distance(A, B, 0.0, workspace).lower_bound > margin;
+  }
+  FirstContactOptions options;
+  options.margin = margin;
+  options.tolerance = kNearOfMeeting * model.distances.least;
+  options.contacts = ContactState::none;
+  return first_contact(A, B, workspace, options).verdict == Verdict::free;
+}
+
+}  // namespace
 
 std::optional<BodyPair> find_meeting(const SimulationModel& model,
                                      const std::vector<RigidState>& states,
@@ -26,11 +54,7 @@ std::optional<BodyPair> find_meeting(const SimulationModel& model,
     if (is_held || !margin || !(concerns(a) || concerns(b))) {
       continue;
     }
-    const Motion A = Motion::fixed(states[a].X_WB);
-    const Motion B = Motion::fixed(states[b].X_WB);
-    const DistanceResult found =
-        distance({model.bodies[a].shape, A}, {model.bodies[b].shape, B}, 0.0, workspace);
-    if (!(found.lower_bound > *margin)) {
+    if (!are_apart(model, {a, b}, states, *margin, workspace)) {
       return BodyPair{a, b};
     }
   }

@@ -131,8 +131,11 @@ class PolygonFinder {
  private:
   /// Whether such edges are near enough to their circle.
   [[nodiscard]] bool is_fine(double length, double angle) const {
-    if (!(angle > kStraight && angle < kSharp)) {
+    if (!(angle > kStraight)) {
       return false;
+    }
+    if (std::isinf(sag_) || angle >= kSharp) {
+      return std::isinf(sag_);
     }
     const double radius = 0.5 * length / std::sin(0.5 * angle);
     return radius * (1.0 - std::cos(0.5 * angle)) <= std::max(sag_, kSagOfRadius * radius);

@@ -46,7 +46,7 @@ class RoundCircles {
  public:
   RoundCircles() = default;  ///< The circles of a shape that has none.
 
-  /// @param sag  [m]
+  /// @param sag  [m]  infinite for a shape whose polygons are all meant as circles
   RoundCircles(const Shape& shape, double sag);
 
   [[nodiscard]] const std::vector<RoundCircle>& circles() const { return circles_; }

@@ -66,7 +66,7 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
             .line = edge_direction(body, feature)};
   side.core = point - side.thickness * outwards;
   const OnCircle on = body.circles != nullptr ? body.circles->at(*body.shape, feature) : OnCircle{};
-  if (on.circle == nullptr || on.circle->sag() > most_sag) {
+  if (on.circle == nullptr || (on.circle->sag() > most_sag && !body.is_curved)) {
     return side;
   }
   const Eigen::Quaterniond R = body.pose.rotation.normalized();

@@ -1,5 +1,5 @@
 /// @file
-/// The ellipsoid that the triangles around an ellipsoid stand for.
+/// The ellipsoid that a shape is.
 
 #pragma once
 
@@ -14,8 +14,7 @@ namespace firstcontact::detail {
 /// An ellipsoid along the axes of a body.
 struct RoundEllipsoid {
   Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d radii = Eigen::Vector3d::Ones();  ///< [m]  For the ellipsoid through all corners.
-  double sag = 0.0;  ///< [m]  Greatest depth of the triangles inside of it.
+  Eigen::Vector3d radii = Eigen::Vector3d::Ones();     ///< [m]
 
   /// [m]  The farthest point along a direction, from the centre; axes of the body.
   [[nodiscard]] Eigen::Vector3d farthest(const Eigen::Vector3d& outwards_B) const {
@@ -40,10 +39,7 @@ struct RoundEllipsoid {
   }
 };
 
-/// The ellipsoid through the corners of a shape's triangles; none where the shape is no ellipsoid.
-///
-/// It is as much larger than the shape as the triangles are, so contacts of the triangles have
-/// room for it.
+/// The ellipsoid that a shape is; none where the shape is no ellipsoid.
 [[nodiscard]] std::optional<RoundEllipsoid> round_ellipsoid_of(const Shape& shape);
 
 }  // namespace firstcontact::detail

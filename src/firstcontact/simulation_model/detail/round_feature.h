@@ -29,7 +29,8 @@ struct RoundFeature {
 
 /// A body at its place, with its circles or its ellipsoid.
 struct PlacedRound {
-  const Shape* shape = nullptr;
+  const Shape* shape = nullptr;               ///< Triangles: SimBody::surface.
+  bool is_curved = false;                     ///< Whether the triangles stand for a curved shape.
   const RoundCircles* circles = nullptr;      ///< Null: none.
   const RoundEllipsoid* ellipsoid = nullptr;  ///< Null: it is no ellipsoid.
   Pose pose = {};

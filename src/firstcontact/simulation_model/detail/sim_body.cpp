@@ -12,6 +12,7 @@
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/inscribed_triangles.h>
 #include <firstcontact/text/quantity.h>
 
 namespace firstcontact::detail {
@@ -80,6 +81,20 @@ double default_contact_distance(const std::vector<SimBody>& bodies) {
          smallest->reach;
 }
 
+/// The triangles with the features of shapes; bodies that share their shape share them.
+class Surfaces {
+ public:
+  [[nodiscard]] const Shape& of(const Shape& shape) {
+    const auto found = known_.find(&shape.hierarchy());
+    return found != known_.end()
+               ? found->second
+               : known_.emplace(&shape.hierarchy(), inscribed_triangles(shape)).first->second;
+  }
+
+ private:
+  std::unordered_map<const Hierarchy*, Shape> known_;
+};
+
 /// The number of a robot of the scene among those with dynamics.
 std::size_t number_in_world(const Scene& scene, std::size_t robot) {
   return static_cast<std::size_t>(
@@ -97,10 +112,12 @@ std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& li
   const LoadedScene& loaded = linked.loaded;
   const std::size_t first_link_body = loaded.scene.bodies.size() - linked.geometries.size();
   std::vector<SimBody> bodies;
+  Surfaces surfaces;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
     const Body& described = loaded.scene.bodies[b];
     const Shape& shape = loaded.bodies.shape(b);
-    SimBody body{.shape = shape.as_triangles(), .ellipsoid = round_ellipsoid_of(shape)};
+    SimBody body{
+        .shape = shape, .surface = surfaces.of(shape), .ellipsoid = round_ellipsoid_of(shape)};
     if (described.free && b >= first_link_body) {
       const LinkGeometryPose& geometry = linked.geometries[b - first_link_body];
       body.kind = BodyKind::free;

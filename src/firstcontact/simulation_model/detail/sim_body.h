@@ -44,7 +44,9 @@ struct LinkBody {
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
-  std::optional<RoundEllipsoid> ellipsoid = {};  ///< Ellipsoid that the shape stands for.
+  /// Triangles with the features of contacts: those of the shape, or inscribed_triangles().
+  Shape surface;
+  std::optional<RoundEllipsoid> ellipsoid = {};  ///< Ellipsoid that the shape is.
   /// The inertia of a free body; of another, or of a link body, only p_BC, its pivot.
   Inertia inertia = {};
   std::optional<LinkBody> link_body = {};

@@ -1,6 +1,7 @@
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -17,9 +18,9 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
   std::unordered_map<const Hierarchy*, std::shared_ptr<const SurfaceNeighbours>> known;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> all;
   for (const SimBody& body : bodies) {
-    auto& entry = known[&body.shape.hierarchy()];
+    auto& entry = known[&body.surface.hierarchy()];
     if (!entry) {
-      entry = std::make_shared<const SurfaceNeighbours>(body.shape, slack);
+      entry = std::make_shared<const SurfaceNeighbours>(body.surface, slack);
     }
     all.push_back(entry);
   }
@@ -27,16 +28,18 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
 }
 
 /// The circles of the bodies. Facets that stand out by less than the tolerance of contacts make no
-/// polygon.
+/// polygon, and those of a curved shape never do.
 std::vector<std::shared_ptr<const RoundCircles>> round_circles_of(
     const std::vector<SimBody>& bodies, double sag) {
   std::unordered_map<const Hierarchy*, std::shared_ptr<const RoundCircles>> known;
   std::vector<std::shared_ptr<const RoundCircles>> all;
   for (const SimBody& body : bodies) {
-    auto& entry = known[&body.shape.hierarchy()];
-    if (!entry) {
-      entry = body.ellipsoid ? std::make_shared<const RoundCircles>()
-                             : std::make_shared<const RoundCircles>(body.shape, sag);
+    auto& entry = known[&body.surface.hierarchy()];
+    if (!entry && body.ellipsoid) {
+      entry = std::make_shared<const RoundCircles>();
+    } else if (!entry) {
+      const double most = body.shape.is_curved() ? std::numeric_limits<double>::infinity() : sag;
+      entry = std::make_shared<const RoundCircles>(body.surface, most);
     }
     all.push_back(entry);
   }
@@ -56,10 +59,10 @@ std::vector<std::vector<std::size_t>> ties_of_bodies(const std::vector<SimTie>& 
   return of;
 }
 
-/// [m]  The greatest sag of the circles of a body, or of the ellipsoid that it is.
-double sag_of(const SimulationModel& model, std::size_t body) {
-  const std::optional<RoundEllipsoid>& ellipsoid = model.bodies[body].ellipsoid;
-  return ellipsoid ? ellipsoid->sag : model.round_circles[body]->sag();
+/// [m]  The greatest sag of the circles of a body that count beside a limit for polygons.
+double sag_of(const SimulationModel& model, std::size_t body, double most) {
+  const double sag = model.round_circles[body]->sag();
+  return model.bodies[body].shape.is_curved() ? sag : std::min(sag, most);
 }
 
 }  // namespace
@@ -77,13 +80,15 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       events(loaded.scene.simulation->events),
       ties(make_sim_ties(linked.loaded, bodies, distances.least)),
       ties_of(ties_of_bodies(ties, bodies.size())) {
-  double sag = 0.0;
   double reach = 0.0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    sag = std::max(sag, sag_of(*this, b));
-    reach = std::max(reach, bodies[b].kind == BodyKind::free ? bodies[b].reach : 0.0);
+  for (const SimBody& body : bodies) {
+    reach = std::max(reach, body.kind == BodyKind::free ? body.reach : 0.0);
   }
-  distances.near += 2.0 * std::min(sag, kMostSagOfReach * reach + distances.tolerance);
+  double sag = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    sag = std::max(sag, sag_of(*this, b, kMostSagOfReach * reach + distances.tolerance));
+  }
+  distances.near += 2.0 * sag;
 }
 
 double most_sag_of(const SimulationModel& model, const BodyPair& bodies) {
@@ -94,7 +99,7 @@ double near_of(const SimulationModel& model, const BodyPair& bodies) {
   const double most = most_sag_of(model, bodies);
   double near = model.distances.band;
   for (const std::size_t body : bodies) {
-    near += std::min(sag_of(model, body), most);
+    near += sag_of(model, body, most);
   }
   return near;
 }

@@ -13,6 +13,7 @@
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/separation/detail/box_tree.h>
+#include <firstcontact/separation/detail/convex_parts.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 #include <firstcontact/verification/detail/script_deviation.h>
@@ -29,6 +30,7 @@ struct RunMember {
   Shape shape;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
   BoxTree tree;
+  std::optional<RoundSet> round = {};  ///< From the pivot; only for a curved body.
   bool is_free = false;
   std::vector<RigidMotion> script = {};  ///< Motion by script_of(); only for a body that is not
                                          ///< free.

@@ -52,15 +52,6 @@ CoveredMotions shared(std::vector<RigidMotion> pieces) {
   return motions;
 }
 
-/// The core of a curved body, which its triangles only enclose.
-std::optional<RoundSet> round_core(const Shape& shape, const Eigen::Vector3d& p_GP) {
-  if (!shape.is_curved()) {
-    return std::nullopt;
-  }
-  const ConvexCore& core = shape.convex_set()->core();
-  return RoundSet{.kind = core.kind, .size = core.size, .centre = core.origin - p_GP};
-}
-
 /// The pose that loading froze when a body was taken up or put down at a time.
 Pose frozen_at(const LoadedScene& loaded, std::size_t body, double t, bool in_link) {
   for (const FrozenPose& frozen : frozen_poses(loaded, body)) {
@@ -148,15 +139,9 @@ void SceneCourses::add_geometry(std::size_t member, const Shape& shape, const Po
     box.extend(vertex);
   }
   const Eigen::Vector3d p_GP = 0.5 * box.min() + 0.5 * box.max();
-  BoxTree tree = build_box_tree(mesh, p_GP);
-  const std::optional<RoundSet> round = round_core(shape, p_GP);
-  if (round) {
-    tree.nodes.resize(1);
-    tree.nodes.front().is_leaf = true;
-    tree.triangles.clear();
-  }
-  geometries_.push_back({member, shape, p_GP, std::make_shared<const BoxTree>(std::move(tree)),
-                         exact_transform(X_MG) * at_point(p_GP), round});
+  geometries_.push_back(
+      {member, shape, p_GP, std::make_shared<const BoxTree>(build_box_tree(shape, p_GP)),
+       exact_transform(X_MG) * at_point(p_GP), round_set_of(shape, p_GP)});
 }
 
 void SceneCourses::attach_bodies() {

@@ -325,19 +325,6 @@ ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
   return finding;
 }
 
-/// A point of each component of a geometry, in its frame. Exact.
-std::vector<Eigen::Vector3d> SceneProof::points_of(const CourseGeometry& geometry) {
-  if (geometry.round) {
-    return {geometry.shape.convex_set()->core().origin};
-  }
-  std::vector<Eigen::Vector3d> points;
-  for (const std::uint32_t v : geometry.shape.component_vertices()) {
-    const std::uint32_t vertex = geometry.shape.hierarchy().vertex_index[v];
-    points.push_back(geometry.shape.mesh().vertices[vertex]);
-  }
-  return points;
-}
-
 std::optional<bool> SceneProof::are_nested(const CourseGeometry& A, const CourseGeometry& B,
                                            double t) const {
   const std::optional<bool> inside_A = has_inside(A, B, t);
@@ -365,7 +352,7 @@ std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const Co
     box.extend(corner);
   }
   std::optional<bool> any = false;
-  for (const Eigen::Vector3d& p_GQ : points_of(other)) {
+  for (const Eigen::Vector3d& p_GQ : points_of_components(other.shape)) {
     const IntervalVector3 p = X * (enclose(p_GQ) - enclose(other.p_GP)) + enclose(solid.p_GP);
     bool is_beside = false;
     for (int k = 0; k < 3; ++k) {

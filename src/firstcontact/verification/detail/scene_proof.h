@@ -99,7 +99,6 @@ class SceneProof {
   [[nodiscard]] CoverResult cover(const CourseGeometry& A, const CourseGeometry& B,
                                   const TimeSpan& window, CoverOptions options) const;
   [[nodiscard]] ProofFinding prove_outside(const FreeClaim& claim) const;
-  [[nodiscard]] static std::vector<Eigen::Vector3d> points_of(const CourseGeometry& geometry);
   [[nodiscard]] std::optional<bool> are_nested(const CourseGeometry& A, const CourseGeometry& B,
                                                double t) const;
   [[nodiscard]] std::optional<bool> has_inside(const CourseGeometry& solid,
