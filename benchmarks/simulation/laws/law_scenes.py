@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import typing
 
 G = 9.81  # [m/s^2]
 NEAR = 1e-7  # [m]  A contact distance. A ball rolls on a circle that is larger by half of it.
@@ -30,18 +31,44 @@ def leaning(angle):
     return [math.cos(0.5 * angle), 0, math.sin(0.5 * angle), 0]
 
 
+def section(inner, outer, length):
+    """Corners of a ring's section: radius and height."""
+    return [(inner, -0.5 * length), (outer, -0.5 * length), (outer, 0.5 * length), (inner, 0.5 * length)]
+
+
+def tube_corners(sides, inner, outer, length):
+    """Those of a ring about z of rectangular section, four for each side."""
+    return [[r * math.cos(2 * math.pi * k / sides), r * math.sin(2 * math.pi * k / sides), z]
+            for k in range(sides) for r, z in section(inner, outer, length)]
+
+
 def tube(sides, inner, outer, length):
-    """A ring about z of rectangular section."""
-    section = [(inner, -0.5 * length), (outer, -0.5 * length), (outer, 0.5 * length), (inner, 0.5 * length)]
-    vertices = [[r * math.cos(2 * math.pi * k / sides), r * math.sin(2 * math.pi * k / sides), z]
-                for k in range(sides) for r, z in section]
+    """A ring about z as a mesh."""
     triangles = []
     for k in range(sides):
         for s in range(4):
             a, b = 4 * k + s, 4 * k + (s + 1) % 4
             d, c = 4 * ((k + 1) % sides) + s, 4 * ((k + 1) % sides) + (s + 1) % 4
             triangles += [[a, d, c], [a, c, b]]
-    return {"vertices": vertices, "triangles": triangles}
+    return {"vertices": tube_corners(sides, inner, outer, length), "triangles": triangles}
+
+
+def tube_hulls(sides, inner, outer, length):
+    """The same ring as convex parts, for engines without meshes that move."""
+    corners = tube_corners(sides, inner, outer, length)
+    return [[corners[(4 * k + c) % len(corners)] for c in range(8)] for k in range(sides)]
+
+
+def tube_dynamics(sides, inner, outer, length, density=1000):
+    """Mass and moments of the same ring."""
+    def polar(radius):  # Of area and of inertia, of a regular polygon.
+        area = 0.5 * sides * radius ** 2 * math.sin(2 * math.pi / sides)
+        return area, area * radius ** 2 / 6 * (2 + math.cos(2 * math.pi / sides))
+    (large, turns), (small, less) = polar(outer), polar(inner)
+    mass, along = density * length * (large - small), density * length * (turns - less)
+    across = 0.5 * along + mass * length ** 2 / 12
+    return {"mass": mass, "centre_of_mass": [0, 0, 0],
+            "inertia": [[across, 0, 0], [0, across, 0], [0, 0, along]]}
 
 
 def scene(bodies, duration, step, friction=0.0, gravity=G, contact_distance=1e-4, **more):
@@ -88,8 +115,19 @@ class NotForPeer(Exception):
     """The engine has no such scene."""
 
 
-def is_ours(tool):
-    return not pathlib.Path(tool).name.startswith("laws_")
+class Tool(typing.NamedTuple):
+    """What simulates a scene: ours, or a peer with one of its integrators."""
+    program: pathlib.Path
+    integrator: str = ""  # Empty: the default.
+
+    @property
+    def is_ours(self):
+        return not self.program.name.startswith("laws_")
+
+    def command(self):
+        if self.is_ours:
+            return [self.program, "simulate", "scene.json", "-o", "run.jsonl"]
+        return [self.program, "scene.json", "run.jsonl", *([self.integrator] if self.integrator else [])]
 
 
 def simulate(tool, described, files=()):
@@ -98,10 +136,8 @@ def simulate(tool, described, files=()):
         for name, text in files:
             (path / name).write_text(text, encoding="utf-8")
         (path / "scene.json").write_text(json.dumps(described), encoding="utf-8")
-        inputs = ["scene.json", "-o", "run.jsonl"] if is_ours(tool) else ["scene.json", "run.jsonl"]
-        done = subprocess.run([tool, *(["simulate"] if is_ours(tool) else []), *inputs], cwd=path,
-                              capture_output=True, text=True, check=False)
-        if done.returncode == 3 and not is_ours(tool):
+        done = subprocess.run(tool.command(), cwd=path, capture_output=True, text=True, check=False)
+        if done.returncode == 3 and not tool.is_ours:
             raise NotForPeer
         if done.returncode != 0:
             sys.exit(f"error: {done.stderr or done.stdout}")

@@ -93,29 +93,25 @@ def spring(tool, step):
 
 
 def floating_arm():
-    """A body of 2 kg with two links: its URDF, and the same as MJCF."""
+    """A body of 2 kg with two links."""
     links = [("base", 2.0, 0.0, 0.02, None), ("a", 1.0, 0.25, 0.02, ("j1", "base", 0.1, "0 1 0")),
              ("b", 0.7, 0.2, 0.01, ("j2", "a", 0.5, "1 0 0"))]
-    urdf, mjcf = '<robot name="f">', "<mujoco><worldbody>"
+    urdf = '<robot name="f">'
     for name, mass, middle, moment, joint in links:
         urdf += (f'<link name="{name}"><inertial><origin xyz="0 0 {middle}"/><mass value="{mass}"/><inertia '
                  f'ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="{0.5 * moment}"/></inertial></link>')
-        mjcf += f'<body name="{name}" pos="0 0 {joint[2] if joint else 0}">'
         if joint:
             urdf += (f'<joint name="{joint[0]}" type="continuous"><parent link="{joint[1]}"/><child link="{name}"/>'
                      f'<origin xyz="0 0 {joint[2]}"/><axis xyz="{joint[3]}"/></joint>')
-        mjcf += f'<joint name="{joint[0]}" type="hinge" axis="{joint[3]}"/>' if joint else "<freejoint/>"
-        mjcf += (f'<inertial pos="0 0 {middle}" mass="{mass}" diaginertia="{moment} {moment} {0.5 * moment}"/>')
-    return urdf + "</robot>", mjcf + "</body>" * len(links) + "</worldbody></mujoco>"
+    return urdf + "</robot>"
 
 
 def floating_robot(tool, step):
     """A run of 3 s of a robot that nothing holds, whose joints turn at 3 and -4 rad/s at first."""
-    urdf, mjcf = floating_arm()
     robot = {"name": "f", "urdf": "f.urdf", "state": {"j1": 0.5, "j2": 0.8}, "dynamics": {
         "base": "free", "velocities": {"j1": 3, "j2": -4}, "linear_velocity": [0.3, 0, 0.1],
         "angular_velocity": [0.5, 1, -1]}}
-    return simulate(tool, scene([], 3.0, step, gravity=0.0, robots=[robot]), [("f.urdf", urdf), ("f.xml", mjcf)])
+    return simulate(tool, scene([], 3.0, step, gravity=0.0, robots=[robot]), [("f.urdf", floating_arm())])
 
 
 def momenta_of_robot(tool, step):
@@ -130,15 +126,26 @@ def energy_of_robot(tool, step):
 
 
 def pendulum_on_hinge(tool, step):
-    """The angle of a box on a hinge at its end that falls from the level, after 1 s: second order."""
-    length, depth = 0.5, 0.05
-    moment = (length ** 2 + depth ** 2) / 12 + length ** 2 / 4
-    run = simulate(tool, scene([body("arm", box(length, 0.05, depth), (0.5 * length, 0, 0), dynamics={})], 1.0, step,
-                               simulation={"ties": [{"type": "hinge", "bodies": [None, "arm"], "axis": [0, 1, 0],
-                                                     "points": [[0, 0, 0], None]}]}))
-    right = runge_kutta(lambda s: [s[1], 0.5 * G * length * math.cos(s[0]) / moment], [0.0, 0.0], 1.0)[0]
-    w, _, y, _ = run.body(0)["quaternion_wxyz"]
-    return abs(math.remainder(2 * math.atan2(y, w) - right, 2 * math.pi))
+    """The angle of a box on a hinge at its end that falls from the level, after 1 s: peers have a robot of one link."""
+    length, depth, density = 0.5, 0.05, 1000
+    mass = density * length * depth * depth
+    across, along = mass * (length ** 2 + depth ** 2) / 12, mass * depth ** 2 / 6
+    right = runge_kutta(lambda s: [s[1], 0.5 * G * length * math.cos(s[0]) / (across / mass + length ** 2 / 4)],
+                        [0.0, 0.0], 1.0)[0]
+    if tool.is_ours:
+        run = simulate(tool, scene(
+            [body("arm", box(length, depth, depth), (0.5 * length, 0, 0), dynamics={})], 1.0, step,
+            simulation={"ties": [{"type": "hinge", "bodies": [None, "arm"], "axis": [0, 1, 0],
+                                  "points": [[0, 0, 0], None]}]}))
+        w, _, y, _ = run.body(0)["quaternion_wxyz"]
+        return abs(math.remainder(2 * math.atan2(y, w) - right, 2 * math.pi))
+    urdf = ('<robot name="h"><link name="base"/><link name="arm"><inertial>'
+            f'<origin xyz="{0.5 * length} 0 0"/><mass value="{mass}"/><inertia ixx="{along}" ixy="0" ixz="0" '
+            f'iyy="{across}" iyz="0" izz="{across}"/></inertial></link><joint name="j" type="continuous">'
+            '<parent link="base"/><child link="arm"/><axis xyz="0 1 0"/></joint></robot>')
+    robot = {"name": "h", "urdf": "h.urdf", "dynamics": {"base": "fixed"}}
+    run = simulate(tool, scene([], 1.0, step, robots=[robot]), [("h.urdf", urdf)])
+    return abs(run.steps[-1]["robots"][0]["positions"][0] - right)
 
 
 def spring_between_bodies(tool, step):
