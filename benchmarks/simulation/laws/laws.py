@@ -73,6 +73,7 @@ ROWS = [
     Row("the same, pressed down by sprung motors", "angle", "rad", SMOOTH,
      lambda tool, step: contacts.arm_on_the_floor(tool, step, press=(0.7, -1.2))),
     Row("sprung motor of a tray carries a load, 1 s", "place", "m", SMOOTH, robots.load_on_a_tray),
+    Row("sprung motors of an arm carry a load, 1 s", "angle", "rad", SMOOTH, robots.load_on_an_arm),
     Row("four links in a loop fall, 3 s", "angle", "rad", SMOOTH, robots.angles_of_loop),
     Row("the same", "energy", "J", SMOOTH, robots.energy_of_loop),
     Row("disc goes round on its rim, 0.3 s", "energy", "part", SMOOTH, contacts.disc_on_its_rim, 1e-6),
@@ -99,6 +100,14 @@ def order_of(errors, noise):
         return None
     first, last = above[0], above[-1]
     return math.log2(errors[first] / errors[last]) / (last - first)
+
+
+def mean_order_of(errors, noise):
+    """Between the first and the last error above the noise."""
+    above = [k for k, error in enumerate(errors) if error > noise]
+    if len(above) < 2:
+        return None
+    return math.log2(errors[above[0]] / errors[above[-1]]) / (above[-1] - above[0])
 
 
 def show(error):
@@ -129,6 +138,7 @@ class Peer(typing.NamedTuple):
 
 class Measured(typing.NamedTuple):
     row: Row
+    name: str  # That of the row, with what it is the same as.
     errors: list
     order: typing.Optional[float]
     peers: list  # What Peer.measure found, one for each peer.
@@ -147,7 +157,7 @@ class Measured(typing.NamedTuple):
             else:
                 integrator, errors = found
                 line += (f"{integrator} | {show(errors[0])} | {show(errors[-1])} | "
-                         f"{show_order(order_of(errors, self.row.noise))} | ")
+                         f"{show_order(mean_order_of(errors, self.row.noise))} | ")
         return line.rstrip()
 
     def better_peers(self):
@@ -160,10 +170,21 @@ class Measured(typing.NamedTuple):
         return found
 
 
-def measure(row, tool, peers):
+def full_names(rows):
+    """The scenes of the rows, each with what it is the same as."""
+    base, names = "", []
+    for row in rows:
+        if not row.scene.startswith("the same"):
+            base = row.scene
+        difference = row.scene.removeprefix("the same").strip(", ")
+        names.append(row.scene if row.scene == base else f"{base}: {difference or row.quantity}")
+    return names
+
+
+def measure(row, name, tool, peers):
     errors = [row.measure(tool, step) for step in STEPS]
     finer = [row.measure(tool, STEPS[-1] / 2 ** (1 + k)) for k in range(row.finer)]
-    return Measured(row, errors, order_of(errors + finer, row.noise), [peer.measure(row) for peer in peers])
+    return Measured(row, name, errors, order_of(errors + finer, row.noise), [peer.measure(row) for peer in peers])
 
 
 def tables(measured, peers):
@@ -173,7 +194,7 @@ def tables(measured, peers):
     theirs = ["| scene | error |" + "".join(f" {peer.name} | 10 ms | 1.25 ms | order |" for peer in peers),
               "|---|---|" + "---|--:|--:|--:|" * len(peers), *(m.line_of_peers() for m in measured)]
     better = ["| scene | step | ours | the better peer |", "|---|--:|--:|--:|",
-              *(f"| {m.row.scene} | {1e3 * step:g} ms | {show(error)} | {show(least)} |"
+              *(f"| {m.name} | {1e3 * step:g} ms | {show(error)} | {show(least)} |"
                 for m in measured for step, error, least in m.better_peers())]
     return {"laws": ours, "peers": theirs, "better": better}
 
@@ -202,20 +223,21 @@ def main():
     parser.add_argument("--update-docs", action="store_true", help="writes the tables into docs/physics.md")
     arguments = parser.parse_args()
     tool, peers = Tool(arguments.tool.resolve()), find_peers(arguments.peers.resolve())
-    rows = [row for row in ROWS if (arguments.rows or "") in row.scene]
     measured = []
-    for row in rows:
-        measured.append(measure(row, tool, peers))
+    for row, name in zip(ROWS, full_names(ROWS)):
+        if (arguments.rows or "") not in name:
+            continue
+        measured.append(measure(row, name, tool, peers))
         print(measured[-1].line(), measured[-1].line_of_peers(), sep="\n", flush=True)
     blocks = tables(measured, peers)
     if arguments.update_docs:
         PAGE.write_text(update_page(PAGE.read_text(encoding="utf-8"), blocks), encoding="utf-8")
-    too_low = [m.row.scene for m in measured if m.order is not None and m.order < m.row.asked - 0.15]
-    worse = [m.row.scene for m in measured if m.better_peers()]
+    too_low = [m.name for m in measured if m.order is not None and m.order < m.row.asked - 0.15]
+    worse = [m.name for m in measured if m.better_peers()]
     print("\n".join(blocks["better"]))
     if too_low or worse:
-        sys.exit(f"below the order asked for: {', '.join(too_low) or 'none'}\n"
-                 f"worse than a peer at the same step: {', '.join(worse) or 'none'}")
+        sys.exit(f"below the order asked for: {'; '.join(too_low) or 'none'}\n"
+                 f"worse than a peer at the same step: {'; '.join(worse) or 'none'}")
 
 
 if __name__ == "__main__":

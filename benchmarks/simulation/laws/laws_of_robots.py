@@ -3,7 +3,7 @@
 import functools
 import math
 
-from law_scenes import G, box, body, runge_kutta, scene, simulate
+from law_scenes import G, body, box, leaning, runge_kutta, scene, simulate
 
 # A loop of four links between two hinges: lengths of crank, coupler and rocker, and of the base [m].
 CRANK, COUPLER, ROCKER, BASE = 0.2, 0.5, 0.4, 0.6
@@ -136,3 +136,63 @@ def load_on_a_tray(tool, step):
     def right(t):
         return rest + (start - rest) * math.exp(-decay * t) * (math.cos(rate * t) + decay / rate * math.sin(rate * t))
     return max(abs(run.at(0.01 * k)["robots"][0]["positions"][0] - right(0.01 * k)) for k in range(1, 101))
+
+
+def two_rods(masses, middles, moments, length, torques):
+    """Rates of two links on hinges, from -z: with the distances of their centres from their hinges, and motors."""
+    (m1, m2), (c1, c2), (i1, i2) = masses, middles, moments
+
+    def rates(state):
+        q1, q2, v1, v2 = state
+        coupling = m2 * length * c2 * math.cos(q2)
+        h = m2 * length * c2 * math.sin(q2)
+        m22 = i2 + m2 * c2 * c2
+        m12 = m22 + coupling
+        m11 = i1 + m1 * c1 * c1 + m2 * length * length + m22 + 2 * coupling
+        f1, f2 = torques(state)
+        f1 += (-(m1 * c1 + m2 * length) * G * math.sin(q1) - m2 * G * c2 * math.sin(q1 + q2)
+               + h * (2 * v1 * v2 + v2 * v2))
+        f2 += -m2 * G * c2 * math.sin(q1 + q2) - h * v1 * v1
+        determinant = m11 * m22 - m12 * m12
+        return [v1, v2, (m22 * f1 - m12 * f2) / determinant, (m11 * f2 - m12 * f1) / determinant]
+    return rates
+
+
+def load_on_an_arm(tool, step, stiffness=200.0, damping=4.0, load=1.0, duration=1.0):
+    """The greatest error within 1 s of the angles of two links that carry a load on a plate: their motors are springs
+    with dampers. The load lies still on the plate, so it turns with the second link."""
+    gap, size = 1e-6, 0.1
+    masses, middle, moment, length = (1.0, 0.7), 0.25, 0.02, 0.5
+    start = (0.5 * math.pi, 0.0)
+    # The plate is in the plane of y and z of its link; the load lies on its side of -x, above in the world.
+    plate = '<collision><origin xyz="0 0 -0.25"/><geometry><box size="0.04 0.3 0.3"/></geometry></collision>'
+    urdf = '<robot name="arm"><link name="base"/>'
+    for name, mass, more in zip("ab", masses, ("", plate)):
+        urdf += (f'<link name="{name}">{more}<inertial><origin xyz="0 0 {-middle}"/><mass value="{mass}"/><inertia '
+                 f'ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="{moment}"/></inertial></link>')
+    urdf += hinge("j1", "base", "a", 0, 0) + hinge("j2", "a", "b", 0, -length) + "</robot>"
+    targets = (start[0] + 0.1, start[1] + 0.03)  # The weight of all turns the joints by 0.075 and 0.021 rad.
+    spring = {"stiffness": stiffness, "damping": damping, "effort": 1000}
+    robot = {"name": "arm", "urdf": "arm.urdf", "state": {"j1": start[0], "j2": start[1]}, "dynamics": {
+        "base": "fixed", "motors": {f"j{k + 1}": spring | {"position": target} for k, target in enumerate(targets)}}}
+    above = 0.02 + 0.5 * size + gap  # [m]  The load's centre over the link, which points along -x in the world.
+    cube = body("load", box(size, size, size), (-length - middle, 0, above), quaternion_wxyz=leaning(0.5 * math.pi),
+                dynamics={"mass": load})
+    run = simulate(tool, scene([cube], duration, step, friction=1.0, robots=[robot], contact_distance=gap),
+                   [("arm.urdf", urdf)])
+    # The second link and the load are one body, whose centre is off the link by the angle off.
+    total = masses[1] + load
+    aside = load * above / total
+    off = math.atan2(aside, middle)
+    both = moment + load * size ** 2 / 6 + masses[1] * aside ** 2 + load * (above - aside) ** 2
+
+    def torques(state):
+        return [stiffness * (targets[0] - state[0]) - damping * state[2],
+                stiffness * (targets[1] + off - state[1]) - damping * state[3]]
+    rates = two_rods((masses[0], total), (middle, math.hypot(middle, aside)), (moment, both), length, torques)
+    worst, state = 0.0, [start[0], start[1] + off, 0.0, 0.0]
+    for k in range(1, round(100 * duration) + 1):
+        state = runge_kutta(rates, state, 0.01, 200)
+        found = run.at(0.01 * k)["robots"][0]["positions"]
+        worst = max(worst, abs(found[0] - state[0]), abs(found[1] + off - state[1]))
+    return worst
