@@ -115,6 +115,15 @@ class NotForPeer(Exception):
     """The engine has no such scene."""
 
 
+class Diverged(Exception):
+    """The run ends with numbers that are not finite."""
+
+
+def rest_gap(tool, contact_distance):
+    """Where bodies rest: one contact distance apart; peers have none."""
+    return contact_distance if tool.is_ours else 0.0
+
+
 class Tool(typing.NamedTuple):
     """What simulates a scene: ours, or a peer with one of its integrators."""
     program: pathlib.Path
@@ -141,7 +150,10 @@ def simulate(tool, described, files=()):
             raise NotForPeer
         if done.returncode != 0:
             sys.exit(f"error: {done.stderr or done.stdout}")
-        return Run((path / "run.jsonl").read_text(encoding="utf-8").splitlines())
+        lines = (path / "run.jsonl").read_text(encoding="utf-8").splitlines()
+        if "null" in lines[-1] and not tool.is_ours:  # So JSON has numbers that are not finite.
+            raise Diverged
+        return Run(lines)
 
 
 # Oracles.

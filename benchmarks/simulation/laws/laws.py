@@ -19,7 +19,7 @@ import typing
 import laws_of_contacts as contacts
 import laws_of_free_motion as motion
 import laws_of_robots as robots
-from law_scenes import NotForPeer, Tool
+from law_scenes import Diverged, NotForPeer, Tool
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "physics.md"
@@ -67,11 +67,15 @@ ROWS = [
     Row("the same as a robot that nothing holds", "axis", "rad", SMOOTH,
      lambda tool, step: contacts.top_on_its_tip(tool, step, robot="link"), finer=SPINS),
     Row("end of an arm slides along a floor, 0.4 s", "angle", "rad", SMOOTH,
-     contacts.arm_on_the_floor),
+     robots.arm_on_the_floor),
     Row("the same with damping 0.1 N m s", "angle", "rad", SMOOTH,
-     lambda tool, step: contacts.arm_on_the_floor(tool, step, damping=0.1)),
+     lambda tool, step: robots.arm_on_the_floor(tool, step, damping=0.1)),
     Row("the same, pressed down by sprung motors", "angle", "rad", SMOOTH,
-     lambda tool, step: contacts.arm_on_the_floor(tool, step, press=(0.7, -1.2))),
+     lambda tool, step: robots.arm_on_the_floor(tool, step, press=(0.7, -1.2))),
+    Row("the same from rest, pressed down by stiffer motors, 1 s", "angle", "rad", SMOOTH,
+     lambda tool, step: robots.slow_arm(tool, step, resistance=2.0)),
+    Row("the same, whose strong dampers let it creep", "angle", "rad", SMOOTH,
+     lambda tool, step: robots.slow_arm(tool, step, resistance=200.0)),
     Row("sprung motor of a tray carries a load, 1 s", "place", "m", SMOOTH, robots.load_on_a_tray),
     Row("sprung motors of an arm carry a load, 1 s", "angle", "rad", SMOOTH, robots.load_on_an_arm),
     Row("four links in a loop fall, 3 s", "angle", "rad", SMOOTH, robots.angles_of_loop),
@@ -131,7 +135,7 @@ class Peer(typing.NamedTuple):
         for tool in self.tools:
             try:
                 found.append((tool.integrator, [row.measure(tool, step) for step in STEPS]))
-            except NotForPeer:
+            except (NotForPeer, Diverged):
                 continue
         return min(found, key=mean, default=None)
 

@@ -2,9 +2,8 @@
 
 import math
 
-from laws_of_free_motion import pendulum_urdf, two_links, two_links_mass
-from law_scenes import (G, NEAR, around_globe, ball, body, box, energy, leaning, runge_kutta, scene, simulate, tube,
-                        tube_dynamics, tube_hulls, turned)
+from law_scenes import (G, NEAR, around_globe, ball, body, box, energy, leaning, rest_gap, runge_kutta, scene, simulate,
+                        tube, tube_dynamics, tube_hulls, turned)
 
 
 def turntable(tool, step):
@@ -165,12 +164,13 @@ def back_spin(tool, step):
 
 def rod_on_its_end(tool, step):
     """How much a rod of 1 m leans, which slides on its end without friction, 0.4 s from 0.3 rad."""
-    moment, half, lean = 1 / 12, 0.5, 0.3
+    moment, half, lean, distance = 1 / 12, 0.5, 0.3, 1e-3
     run = simulate(tool, scene([FLOOR, body(
         "rod", {"capsule": {"radius": 0.01, "length": 1.0}},
-        (half * math.sin(lean), 0, 0.0101 + half * math.cos(lean)), quaternion_wxyz=leaning(lean), dynamics={
+        (half * math.sin(lean), 0, 0.01 + rest_gap(tool, distance) + half * math.cos(lean)),
+        quaternion_wxyz=leaning(lean), dynamics={
             "mass": 1, "centre_of_mass": [0, 0, 0], "inertia": [[moment, 0, 0], [0, moment, 0], [0, 0, 1e-4]]})],
-        0.4, step))
+        0.4, step, contact_distance=distance))
 
     def rates(state):
         q, w = state
@@ -223,47 +223,6 @@ def top_on_its_tip(tool, step, robot=None):
         found = turned(run.body(0 if robot == "tray" else 1, 0.1 * tenth)["quaternion_wxyz"], [0, 0, 1])
         worst = max(worst, math.dist(found, right))
     return worst
-
-
-def arm_on_the_floor(tool, step, damping=0.0, press=None):
-    """The greatest error of the angles of two links after 0.4 s, whose end slides along a floor without friction.
-    Motors with targets "press" the end on the floor, as springs of 20 N m/rad with damping."""
-    start, radius, gap = [0.9, -1.4, 1.0], 0.02, 1e-5
-    tip = 0.5 * (math.cos(start[0]) + math.cos(start[0] + start[1]))  # [m]  Below the first hinge.
-    start.append(-start[2] * (1 + math.sin(start[0]) / math.sin(start[0] + start[1])))
-    dynamics = {"base": "fixed", "velocities": {"j1": start[2], "j2": start[3]}}
-    stiffness, resistance = 20, 0.5
-    if press:
-        dynamics["motors"] = {joint: {"position": target, "stiffness": stiffness, "damping": resistance, "effort": 100}
-                              for joint, target in zip(("j1", "j2"), press)}
-    robot = {"name": "arm", "urdf": "arm.urdf", "state": {"j1": start[0], "j2": start[1]}, "dynamics": dynamics}
-    floor = body("floor", box(9, 9, 0.1), (0, 0, -tip - radius - gap - 0.05))
-    end = f'<collision><origin xyz="0 0 -0.5"/><geometry><sphere radius="{radius}"/></geometry></collision>'
-    run = simulate(tool, scene([floor], 0.4, step, robots=[robot], contact_distance=gap),
-                   [("arm.urdf", pendulum_urdf(damping, end))])
-    hanging, mass = two_links(damping), two_links_mass
-
-    def rates(state):
-        """Those of the links without the floor, and what the force of the floor on the end adds."""
-        q1, q2, v1, v2 = state
-        up = [0.5 * (math.sin(q1) + math.sin(q1 + q2)), 0.5 * math.sin(q1 + q2)]
-        m11, m12, m22 = mass(q2)
-
-        def turned_by(torques):
-            return [(m22 * torques[0] - m12 * torques[1]) / (m11 * m22 - m12 * m12),
-                    (m11 * torques[1] - m12 * torques[0]) / (m11 * m22 - m12 * m12)]
-        free = hanging(state)[2:]
-        if press:
-            motors = turned_by([stiffness * (target - q) - resistance * v
-                                for target, q, v in zip(press, (q1, q2), (v1, v2))])
-            free = [a + b for a, b in zip(free, motors)]
-        push = turned_by(up)
-        rises = (up[0] * free[0] + up[1] * free[1]
-                 + 0.5 * (math.cos(q1) * v1 * v1 + math.cos(q1 + q2) * (v1 + v2) ** 2))
-        force = -rises / (up[0] * push[0] + up[1] * push[1])
-        return [v1, v2, free[0] + force * push[0], free[1] + force * push[1]]
-    right = runge_kutta(rates, start, 0.4)
-    return max(abs(a - b) for a, b in zip(right, run.steps[-1]["robots"][0]["positions"]))
 
 
 def disc_on_its_rim(tool, step):

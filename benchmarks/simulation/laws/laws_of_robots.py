@@ -3,7 +3,72 @@
 import functools
 import math
 
-from law_scenes import G, body, box, leaning, runge_kutta, scene, simulate
+from laws_of_free_motion import pendulum_urdf, two_links, two_links_mass
+from law_scenes import G, body, box, leaning, rest_gap, runge_kutta, scene, simulate
+
+ARM_START = [0.9, -1.4]  # [rad]  Of two links whose end touches a floor.
+
+
+def rise_of_end(q1, q2):
+    """How fast the end of two links rises with each angle."""
+    return [0.5 * (math.sin(q1) + math.sin(q1 + q2)), 0.5 * math.sin(q1 + q2)]
+
+
+def arm_on_the_floor(tool, step, damping=0.0, press=None, stiffness=20.0, resistance=0.5, speed=1.0, duration=0.4,
+                     distance=1e-4):
+    """The greatest error of the angles of two links whose end slides along a floor without friction. Motors with
+    targets "press" the end on the floor: springs [N m/rad] and dampers [N m s/rad]."""
+    radius = 0.02
+    up = rise_of_end(*ARM_START)
+    start = [*ARM_START, speed, -speed * up[0] / up[1]]
+    tip = 0.5 * (math.cos(start[0]) + math.cos(start[0] + start[1]))  # [m]  Below the first hinge.
+    dynamics = {"base": "fixed", "velocities": {"j1": start[2], "j2": start[3]}}
+    if press:
+        dynamics["motors"] = {joint: {"position": target, "stiffness": stiffness, "damping": resistance, "effort": 100}
+                              for joint, target in zip(("j1", "j2"), press)}
+    robot = {"name": "arm", "urdf": "arm.urdf", "state": {"j1": start[0], "j2": start[1]}, "dynamics": dynamics}
+    floor = body("floor", box(9, 9, 0.1), (0, 0, -tip - radius - rest_gap(tool, distance) - 0.05))
+    end = f'<collision><origin xyz="0 0 -0.5"/><geometry><sphere radius="{radius}"/></geometry></collision>'
+    run = simulate(tool, scene([floor], duration, step, robots=[robot], contact_distance=distance),
+                   [("arm.urdf", pendulum_urdf(damping, end))])
+    hanging, mass = two_links(damping), two_links_mass
+
+    def rates(state):
+        """Those of the links without the floor, and what the force of the floor on the end adds."""
+        q1, q2, v1, v2 = state
+        up = rise_of_end(q1, q2)
+        m11, m12, m22 = mass(q2)
+
+        def turned_by(torques):
+            return [(m22 * torques[0] - m12 * torques[1]) / (m11 * m22 - m12 * m12),
+                    (m11 * torques[1] - m12 * torques[0]) / (m11 * m22 - m12 * m12)]
+        free = hanging(state)[2:]
+        if press:
+            motors = turned_by([stiffness * (target - q) - resistance * v
+                                for target, q, v in zip(press, (q1, q2), (v1, v2))])
+            free = [a + b for a, b in zip(free, motors)]
+        push = turned_by(up)
+        rises = (up[0] * free[0] + up[1] * free[1]
+                 + 0.5 * (math.cos(q1) * v1 * v1 + math.cos(q1 + q2) * (v1 + v2) ** 2))
+        force = -rises / (up[0] * push[0] + up[1] * push[1])
+        return [v1, v2, free[0] + force * push[0], free[1] + force * push[1]]
+    worst, state = 0.0, start
+    for k in range(1, 9):
+        state = runge_kutta(rates, state, duration / 8, 2500)
+        found = run.at(k * duration / 8)["robots"][0]["positions"]
+        worst = max(worst, abs(found[0] - state[0]), abs(found[1] - state[1]))
+    return worst
+
+
+def slow_arm(tool, step, resistance):
+    """The same within 1 s from rest, where springs of 200 N m/rad press with 20 N m and dampers are weak or strong."""
+    up = rise_of_end(*ARM_START)
+    length = math.hypot(*up)
+    down, along = [-x / length for x in up], [up[1] / length, -up[0] / length]
+    press = [q + 0.1 * d + 0.01 * a for q, d, a in zip(ARM_START, down, along)]
+    return arm_on_the_floor(tool, step, press=press, stiffness=200.0, resistance=resistance, speed=0.0, duration=1.0,
+                            distance=1e-6)
+
 
 # A loop of four links between two hinges: lengths of crank, coupler and rocker, and of the base [m].
 CRANK, COUPLER, ROCKER, BASE = 0.2, 0.5, 0.4, 0.6
@@ -116,7 +181,7 @@ TRAY_MASS, LOAD, STIFFNESS, RESISTANCE = 2.0, 1.0, 2000.0, 40.0
 
 def load_on_a_tray(tool, step):
     """The greatest error within 1 s of the place of a tray that carries a load: its motor is a spring with a damper."""
-    gap = 1e-6
+    distance = 1e-4
     urdf = (f'<robot name="lift"><link name="base"/><link name="tray"><inertial><mass value="{TRAY_MASS}"/>'
             '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
             '<collision><origin xyz="0 0 -0.05"/><geometry><box size="1 1 0.1"/></geometry></collision></link>'
@@ -126,8 +191,8 @@ def load_on_a_tray(tool, step):
     robot = {"name": "lift", "urdf": "lift.urdf", "state": {"lift": start}, "dynamics": {
         "base": "fixed", "motors": {"lift": {"position": 0, "stiffness": STIFFNESS, "damping": RESISTANCE,
                                              "effort": 1000}}}}
-    load = body("load", box(0.2, 0.2, 0.1), (0, 0, start + 0.05 + gap), dynamics={"mass": LOAD})
-    run = simulate(tool, scene([load], 1.0, step, friction=0.5, robots=[robot], contact_distance=gap),
+    load = body("load", box(0.2, 0.2, 0.1), (0, 0, start + 0.05 + rest_gap(tool, distance)), dynamics={"mass": LOAD})
+    run = simulate(tool, scene([load], 1.0, step, friction=0.5, robots=[robot], contact_distance=distance),
                    [("lift.urdf", urdf)])
     mass = TRAY_MASS + LOAD
     rest, decay = -mass * G / STIFFNESS, 0.5 * RESISTANCE / mass
@@ -161,7 +226,7 @@ def two_rods(masses, middles, moments, length, torques):
 def load_on_an_arm(tool, step, stiffness=200.0, damping=4.0, load=1.0, duration=1.0):
     """The greatest error within 1 s of the angles of two links that carry a load on a plate: their motors are springs
     with dampers. The load lies still on the plate, so it turns with the second link."""
-    gap, size = 1e-6, 0.1
+    distance, size = 1e-4, 0.1
     masses, middle, moment, length = (1.0, 0.7), 0.25, 0.02, 0.5
     start = (0.5 * math.pi, 0.0)
     # The plate is in the plane of y and z of its link; the load lies on its side of -x, above in the world.
@@ -175,10 +240,10 @@ def load_on_an_arm(tool, step, stiffness=200.0, damping=4.0, load=1.0, duration=
     spring = {"stiffness": stiffness, "damping": damping, "effort": 1000}
     robot = {"name": "arm", "urdf": "arm.urdf", "state": {"j1": start[0], "j2": start[1]}, "dynamics": {
         "base": "fixed", "motors": {f"j{k + 1}": spring | {"position": target} for k, target in enumerate(targets)}}}
-    above = 0.02 + 0.5 * size + gap  # [m]  The load's centre over the link, which points along -x in the world.
+    above = 0.02 + 0.5 * size + rest_gap(tool, distance)  # [m]  From the link to the load's centre.
     cube = body("load", box(size, size, size), (-length - middle, 0, above), quaternion_wxyz=leaning(0.5 * math.pi),
                 dynamics={"mass": load})
-    run = simulate(tool, scene([cube], duration, step, friction=1.0, robots=[robot], contact_distance=gap),
+    run = simulate(tool, scene([cube], duration, step, friction=1.0, robots=[robot], contact_distance=distance),
                    [("arm.urdf", urdf)])
     # The second link and the load are one body, whose centre is off the link by the angle off.
     total = masses[1] + load
