@@ -60,14 +60,14 @@ def arm_on_the_floor(tool, step, damping=0.0, press=None, stiffness=20.0, resist
     return worst
 
 
-def slow_arm(tool, step, resistance):
+def slow_arm(tool, step, resistance, distance):
     """The same within 1 s from rest, where springs of 200 N m/rad press with 20 N m and dampers are weak or strong."""
     up = rise_of_end(*ARM_START)
     length = math.hypot(*up)
     down, along = [-x / length for x in up], [up[1] / length, -up[0] / length]
     press = [q + 0.1 * d + 0.01 * a for q, d, a in zip(ARM_START, down, along)]
     return arm_on_the_floor(tool, step, press=press, stiffness=200.0, resistance=resistance, speed=0.0, duration=1.0,
-                            distance=1e-6)
+                            distance=distance)
 
 
 # A loop of four links between two hinges: lengths of crank, coupler and rocker, and of the base [m].
