@@ -71,7 +71,8 @@ def tumbling(tool, step):
                        (moments[0] - moments[1]) * w[0] * w[1] / moments[2]]
     right = runge_kutta(rates, [1.0, 0.0, 0.0, 0.0] + start, 3.0)[:4]
     found = run.body(0)["quaternion_wxyz"]
-    return 2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(right, found)))))
+    # The arc between two quaternions, by their chord: the cosine has no digits left for small angles.
+    return 4 * math.asin(0.5 * min(math.dist(right, found), math.dist(right, [-x for x in found])))
 
 
 def free_pendulum(tool, step, damping=0.0, motors=None):
