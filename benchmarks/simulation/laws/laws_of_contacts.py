@@ -2,7 +2,7 @@
 
 import math
 
-from law_scenes import (G, NEAR, around_globe, ball, body, box, energy, leaning, rest_gap, runge_kutta, scene, simulate,
+from law_scenes import (G, NEAR, ball, body, box, energy, leaning, rest_gap, runge_kutta, scene, simulate,
                         tube, tube_dynamics, tube_hulls, turned)
 
 
@@ -261,9 +261,8 @@ def ring_on_a_pin(tool, step):
 
 def rocking_ellipsoid(tool, step):
     """How much an ellipsoid leans too far after 1 s, which rocks on the level from 0.1 rad without slipping."""
-    radii, error, lean = [0.1, 0.08, 0.05], 1e-4, 0.1
-    larger = around_globe(error / radii[0]) if tool.is_ours else 1
-    long, high = larger * radii[0], larger * radii[2]
+    radii, lean = [0.1, 0.08, 0.05], 0.1
+    long, _, high = radii
     moments = [(radii[1] ** 2 + radii[2] ** 2) / 5, (radii[0] ** 2 + radii[2] ** 2) / 5,
                (radii[0] ** 2 + radii[1] ** 2) / 5]
 
@@ -277,7 +276,7 @@ def rocking_ellipsoid(tool, step):
         bend = (squares * math.cos(2 * q) - slope ** 2) / h
         return [w, -slope * (w * w * (h + bend) + G) / (moments[1] + h * h + slope * slope)]
     run = simulate(tool, scene([FLOOR, body(
-        "egg", {"ellipsoid": {"radii": radii, "enclosure_error": error}}, (0, 0, height(lean) + 1e-6),
+        "egg", {"ellipsoid": {"radii": radii}}, (0, 0, height(lean) + 1e-6),
         quaternion_wxyz=leaning(lean), dynamics={
             "mass": 1, "centre_of_mass": [0, 0, 0],
             "inertia": [[moments[0], 0, 0], [0, moments[1], 0], [0, 0, moments[2]]]})],
