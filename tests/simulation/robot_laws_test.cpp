@@ -139,6 +139,7 @@ std::vector<LawCase> law_cases() {
                    .torques = [](double t, const Swing&) -> Vector2d {
                      return {0.5 * t, 0.0};
                    },
+                   .duration = 2.0,
                    .greatest = 1e-4});
   cases.push_back(
       {.name = "spring",
@@ -391,7 +392,7 @@ TEST_F(RobotLaws, LetWhatFloatsFall) {
   }
 }
 
-// Held joints make it one rigid body.
+// Held joints make it one rigid body. It has 12 J.
 TEST_F(RobotLaws, KeepTheEnergyOfHeldRobotsThatTumble) {
   std::vector<double> errors;
   for (const double step : {0.01, 0.005, 0.0025}) {
@@ -411,9 +412,10 @@ TEST_F(RobotLaws, KeepTheEnergyOfHeldRobotsThatTumble) {
     errors.push_back(worst);
     expect_same_momenta(steps, steps[0].linear_momentum, "held");
   }
-  EXPECT_LE(errors[0], 1e-6);
-  EXPECT_LE(errors[1], 0.1 * errors[0] + 1e-11);
-  EXPECT_LE(errors[2], 0.1 * errors[1] + 1e-11);
+  // Of 1e-11 by its sub-steps of fourth order, which turn by less at any of these steps.
+  for (const double error : errors) {
+    EXPECT_LE(error, 2e-9);
+  }
 }
 
 // A motor that nothing bounds presses a link on the base: inner forces, however great.

@@ -24,10 +24,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The most by which a coordinate moves in a sub-step of free motion.
-constexpr double kSubStep = 0.05;  // [rad or m]
+constexpr double kSubStep = 0.0125;  // [rad or m]
 constexpr int kMostSubSteps = 4096;
 /// The most by which it moves where accelerations change within the sub-step.
-constexpr double kMostWay = 2.0 * kSubStep;  // [rad or m]
+constexpr double kMostWay = 8.0 * kSubStep;  // [rad or m]
 /// [-]  The most by which dampers slow a velocity in a sub-step: damping / mass times the sub-step.
 constexpr double kMostDecay = 0.03;
 /// [-]  The most by which both accelerations halfway, times the sub-step, differ, as a fraction of

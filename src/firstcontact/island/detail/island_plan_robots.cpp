@@ -69,9 +69,13 @@ void IslandPlanner::choose_rules() {
 /// the forces of its motors in its flight are no estimate for the plan. Where links turn they are,
 /// as the flight takes in the contacts. They also are where no link turns in the flight, as masses
 /// and Jacobians stay.
+///
+/// Links at rest turn by a small part of their turn in the flight. A limit of its own for them
+/// would take in the time around each turning point, and longer the shorter plans are.
 bool IslandPlanner::leaves(std::size_t robot) const {
-  return state_.robots.has_answering_motors(robot) && turn_of_links() < kSwing &&
-         state_.robots.turn_of(robot, flights_[robot]) >= kSwing &&
+  const double flies = state_.robots.turn_of(robot, flights_[robot]);
+  return state_.robots.has_answering_motors(robot) && flies >= kSwing &&
+         turn_of_links() < kRestOfSwing * flies &&
          state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
 }
 

@@ -224,6 +224,8 @@ inline constexpr double kMostSpin = 100.0;
 /// [rad]  Where links of a robot in contact turn by more in a plan, its flight predicts its motors
 /// and its contacts.
 inline constexpr double kSwing = 1e-4;
+/// [-]  Where links turn by less than this part of their turn in a flight, they are at rest.
+inline constexpr double kRestOfSwing = 0.03;
 /// [rad]  Greatest turn in a plan of touching bodies on which gyroscopic moments act.
 inline constexpr double kMostTurnInContact = 0.5;
 /// [-]  Number of times that a protruding polygon lifts the contact of its circle in a plan, before
