@@ -21,6 +21,23 @@ std::string quantiles(const TimingHistogram& histogram) {
                      seconds(histogram.quantile_ns(0.999)), seconds(histogram.greatest_ns()));
 }
 
+/// A line for each class of contacts that some tick had.
+std::string contact_class_lines(const WallSessionReport& wall) {
+  std::string text;
+  for (std::size_t k = 0; k < kContactClasses; ++k) {
+    const TimingHistogram& ticks = wall.tick_cpu_by_contacts[k];
+    if (ticks.count() > 0) {
+      const std::size_t most = std::min(least_contacts(k + 1) - 1, kMostHapticContacts);
+      const std::string contacts = most == least_contacts(k)
+                                       ? std::to_string(most)
+                                       : fmt::format("{} to {}", least_contacts(k), most);
+      text += answer_line("", fmt::format("{} ticks with {} contacts: {}", ticks.count(), contacts,
+                                          quantiles(ticks)));
+    }
+  }
+  return text;
+}
+
 std::string wall_text(const WallSessionReport& wall) {
   const RealTimeGrant& granted = wall.granted;
   const auto word = [](bool is) { return is ? "yes" : "no"; };
@@ -30,9 +47,10 @@ std::string wall_text(const WallSessionReport& wall) {
                                  word(granted.force_fifo), word(granted.contact_fifo),
                                  word(granted.force_processor), word(granted.contact_processor),
                                  word(granted.locked_memory))) +
-         answer_line("tick CPU", quantiles(wall.tick_cpu)) +
+         answer_line("tick CPU", quantiles(wall.tick_cpu)) + contact_class_lines(wall) +
          answer_line("tick late", quantiles(wall.tick_delay)) +
-         answer_line("empty loop", "late by " + quantiles(wall.empty_delay)) +
+         answer_line("empty loop", fmt::format("{} ticks, late by {}", wall.empty_delay.count(),
+                                               quantiles(wall.empty_delay))) +
          answer_line("cycle", quantiles(wall.cycle_wall)) +
          answer_line("missed",
                      fmt::format("{} ticks began more than a period late, {} were skipped{}",

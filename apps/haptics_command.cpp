@@ -278,12 +278,18 @@ class HapticsRun {
     }
   }
 
+  [[nodiscard]] WallSessionOptions wall_options() const {
+    WallSessionOptions options{.duration = named_.duration};
+    options.empty_duration = arguments_.empty_loop.value_or(options.empty_duration);
+    return options;
+  }
+
   void run_on_the_wall() {
     if (waits_for_page()) {
       wait_for_page();
     }
     wall_ = run_wall_session(
-        setup_.scene, setup_.options, pointers_, {.duration = named_.duration},
+        setup_.scene, setup_.options, pointers_, wall_options(),
         [this](const ForceTick& tick) { take(tick); },
         [this](const HapticCycle& cycle, std::int64_t time_ns) { take(cycle, time_ns); },
         interrupt_.token());

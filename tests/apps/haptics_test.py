@@ -5,6 +5,7 @@
 PLUGIN is the example of a plug-in, as a shared library.
 """
 
+import collections
 import csv
 import json
 import os
@@ -267,14 +268,33 @@ class Haptics(tool_test.ToolTest):
                                "--cycles", "cycles.csv")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("SCHED_FIFO", result.stdout)
-        self.assertIn("empty loop", result.stdout)
-        self.assertIn("tick_cpu", (self.folder / "timing.csv").read_text())
+        self.assertRegex(result.stdout, r"empty loop +[1-9]\d* ticks, late by")
+        self.assert_counts_ticks_by_contacts(result.stdout)
         tables = []
         for name in ("ticks.csv", "cycles.csv"):
             with open(self.folder / name, encoding="utf-8") as file:
                 tables.append(list(csv.DictReader(file)))
         self.assert_devices_are_those_of_ticks(*tables)
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+
+    def assert_counts_ticks_by_contacts(self, answer):
+        """Requires that timing.csv has each tick once more, by its number of contacts."""
+        ticks = collections.Counter()
+        with open(self.folder / "timing.csv", encoding="utf-8") as file:
+            for line in csv.DictReader(file):
+                ticks[line["what"]] += int(line["count"])
+        by_contacts = {what: count for what, count in ticks.items() if what.startswith("tick_cpu_contacts_")}
+        self.assertGreater(ticks["tick_cpu"], 0)
+        self.assertEqual(sum(by_contacts.values()), ticks["tick_cpu"])
+        self.assertIn(f"{by_contacts['tick_cpu_contacts_0']} ticks with 0 contacts: median", answer)
+
+    def test_runs_an_empty_loop_for_as_long_as_the_session(self):
+        self.file("scene.json", scene())
+        result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.3", "--wall",
+                               "--empty-loop", "5", "--timing", "timing.csv")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("empty loop  1200 ticks", result.stdout)
+        self.assert_refused_with(self.haptics("--device", "simulated", "--empty-loop", "1"), "--wall")
 
     def felt_by(self, device, *arguments):
         """Runs a device of a hand against the plate, proves the run, and gives the ticks."""

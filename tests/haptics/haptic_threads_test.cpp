@@ -2,6 +2,8 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -183,13 +185,16 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   options.forces.limits.fresh_ns = 5'000'000'000;  // Longer than a busy machine needs.
   options.forces.limits.stale_ns = 6'000'000'000;
   std::uint64_t ticks = 0;
+  std::array<std::uint64_t, kContactClasses> ticks_of{};
   std::uint64_t cycles = 0;
   std::uint64_t stale = 0;
   double greatest = 0.0;
   const WallSessionReport report = run_wall_session(
-      cube_on_floor(), options, devices, {.duration = 0.1, .real_time = false},
+      cube_on_floor(), options, devices,
+      {.duration = 0.1, .real_time = false, .empty_duration = 0.06},
       [&](const ForceTick& tick) {
         ++ticks;
+        ++ticks_of[std::bit_width(tick.contacts)];
         EXPECT_GE(tick.age_ns, 0);
         stale +=
             (tick.tools[0].faults & static_cast<std::uint32_t>(ForceFault::stale)) != 0 ? 1 : 0;
@@ -205,6 +210,10 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   EXPECT_EQ(report.unread_ticks, 0U);
   EXPECT_EQ(report.behind_ns, 0);  // Nothing but the tool moves here.
   EXPECT_EQ(report.tick_cpu.count(), report.ticks);
+  for (std::size_t k = 0; k < kContactClasses; ++k) {
+    EXPECT_EQ(report.tick_cpu_by_contacts[k].count(), ticks_of[k]) << least_contacts(k);
+  }
+  EXPECT_EQ(report.empty_delay.count(), 30U);
   EXPECT_GE(report.ticks + report.skipped_ticks, 49U);
   EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.
 }

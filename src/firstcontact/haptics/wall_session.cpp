@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <deque>
 #include <exception>
@@ -31,8 +32,6 @@ using WallClock = std::chrono::steady_clock;
 constexpr int kForcePriority = 80;
 constexpr int kContactPriority = 60;
 constexpr std::size_t kRing = 1U << 14;  // [ticks]  4 s at 4 kHz.
-// [ns]  Time for which the loop that does nothing runs.
-constexpr std::int64_t kEmptyNs = 200'000'000;
 
 std::int64_t cpu_now_ns() noexcept {
   timespec now{};
@@ -82,13 +81,15 @@ class ForceThread {
  public:
   ForceThread(SharedSession& shared, ForceLoop& loop, std::span<Device* const> devices,
               std::vector<detail::TargetLead> leads, const detail::SessionPeriods& periods,
-              std::int64_t duration_ns, bool real_time, WallSessionReport& report)
+              std::int64_t empty_ns, std::int64_t duration_ns, bool real_time,
+              WallSessionReport& report)
       : shared_(shared),
         loop_(loop),
         devices_(devices),
         leads_(std::move(leads)),
         lead_(1e-9 * static_cast<double>(periods.cycle_ns)),
         period_ns_(periods.force_ns),
+        empty_ns_(empty_ns),
         duration_ns_(duration_ns),
         real_time_(real_time),
         report_(report) {}
@@ -129,8 +130,8 @@ class ForceThread {
 
   void run_empty() {
     std::int64_t next = steady_now_ns();
-    const std::int64_t end = next + std::min(kEmptyNs, duration_ns_);
-    while (next < end) {
+    const std::int64_t end = next + empty_ns_;
+    while (next < end && !shared_.is_over.load(std::memory_order_relaxed)) {
       sleep_until_ns(next);
       report_.empty_delay.add(steady_now_ns() - next);
       next += period_ns_;
@@ -155,7 +156,9 @@ class ForceThread {
     handed.joints = tick.joint_targets;
     shared_.targets.put(handed);
     shared_.ticks.push(tick);
-    report_.tick_cpu.add(cpu_now_ns() - cpu);
+    const std::int64_t took = cpu_now_ns() - cpu;
+    report_.tick_cpu.add(took);
+    report_.tick_cpu_by_contacts[std::bit_width(tick.contacts)].add(took);
     report_.tick_wall.add(steady_now_ns() - now);
     ++report_.ticks;
   }
@@ -166,6 +169,7 @@ class ForceThread {
   std::vector<detail::TargetLead> leads_;
   double lead_;  // [s]
   std::int64_t period_ns_;
+  std::int64_t empty_ns_;
   std::int64_t duration_ns_;
   bool real_time_;
   WallSessionReport& report_;
@@ -265,10 +269,10 @@ void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)
 
 /// Puts the contacts at the start as those of a tick before the first one. The first tick would
 /// otherwise have no set, and be stale.
-void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns,
+void put_contacts_at_start(const ContactLoop& contacts, std::int64_t empty_ns,
                            std::int64_t period_ns, SharedSession& shared) {
   HapticContactSet set = contacts.contact_set();
-  set.stamp_ns = steady_now_ns() + std::min(kEmptyNs, duration_ns) - period_ns;
+  set.stamp_ns = steady_now_ns() + empty_ns - period_ns;
   set.checksum = checksum_of(set);
   shared.sets.put(set);
 }
@@ -312,9 +316,11 @@ WallSessionReport run_wall_session(
     const WallSessionOptions& wall, const std::function<void(const ForceTick&)>& on_tick,
     const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle,
     const std::stop_token& stop) {
-  if (!(wall.duration > 0.0 && wall.duration <= 1e9) || wall.contact_delay_ns < 0) {
+  if (!(wall.duration > 0.0 && wall.duration <= 1e9 && wall.empty_duration >= 0.0) ||
+      wall.contact_delay_ns < 0) {
     throw std::invalid_argument(
-        "WallSessionOptions: the duration must be > 0 and at most 1e9 s, the delay >= 0");
+        "WallSessionOptions: the duration must be > 0 and at most 1e9 s, the empty duration and "
+        "the delay >= 0");
   }
   if (devices.size() != scene.tools.size()) {
     throw std::invalid_argument("a device for each tool was expected");
@@ -330,9 +336,11 @@ WallSessionReport run_wall_session(
   report.granted.locked_memory = wall.real_time && detail::lock_memory();
   {
     const auto duration_ns = static_cast<std::int64_t>(1e9 * wall.duration);
-    put_contacts_at_start(contacts, duration_ns, periods.force_ns, *shared);
+    const auto empty_ns =
+        static_cast<std::int64_t>(1e9 * std::min(wall.empty_duration, wall.duration));
+    put_contacts_at_start(contacts, empty_ns, periods.force_ns, *shared);
     ForceThread force(*shared, forces, devices, {mappings.begin(), mappings.end()}, periods,
-                      duration_ns, wall.real_time, report);
+                      empty_ns, duration_ns, wall.real_time, report);
     ContactThread contact(*shared, contacts, periods.cycle_ns, wall, report);
     const RunningThreads threads(*shared, force, contact);
     while (!shared->force_is_done) {

@@ -3,12 +3,16 @@
 
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <stop_token>
 
 #include <firstcontact/haptic_devices/device.h>
+#include <firstcontact/haptics/contact_set.h>
 #include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics/timing_histogram.h>
 #include <firstcontact/math/export.h>
@@ -21,6 +25,9 @@ struct WallSessionOptions {
   /// Whether to request SCHED_FIFO, a processor for each loop and locked memory. The session goes
   /// on without a request that is refused.
   bool real_time = true;
+  /// [s]  Time for which a loop that does nothing runs first, at most the duration; >= 0. It has
+  /// the period, the priority and the processor of the force loop.
+  double empty_duration = 0.2;
   /// [ns]  Delay added to each cycle of the contact loop, to study its effect; >= 0.
   std::int64_t contact_delay_ns = 0;
 };
@@ -34,6 +41,14 @@ struct RealTimeGrant {
   bool locked_memory = false;
 };
 
+/// Ticks are counted by the binary digits of their number of contacts: 0, 1, 2 to 3, 4 to 7, ...
+inline constexpr std::size_t kContactClasses = std::bit_width(kMostHapticContacts) + 1;
+
+/// The least number of contacts of a class.
+[[nodiscard]] constexpr std::size_t least_contacts(std::size_t contact_class) noexcept {
+  return contact_class == 0 ? 0 : std::size_t{1} << (contact_class - 1);
+}
+
 /// The account of a session on the wall, with every tick counted.
 struct WallSessionReport {
   RealTimeGrant granted = {};
@@ -44,8 +59,10 @@ struct WallSessionReport {
   /// [ns]  Time by which courses are behind the wall clock at the end. They move on by a period of
   /// the contact loop in each cycle. After a longer cycle the next one begins later.
   std::int64_t behind_ns = 0;
-  std::uint64_t unread_ticks = 0;   ///< Ticks that the caller was too slow to take.
-  TimingHistogram tick_cpu = {};    ///< Thread CPU time of the force loop's body.
+  std::uint64_t unread_ticks = 0;  ///< Ticks that the caller was too slow to take.
+  TimingHistogram tick_cpu = {};   ///< Thread CPU time of the force loop's body.
+  /// The same for each class of contacts.
+  std::array<TimingHistogram, kContactClasses> tick_cpu_by_contacts = {};
   TimingHistogram tick_wall = {};   ///< Wall time of the same.
   TimingHistogram tick_delay = {};  ///< From the time of a tick to its begin.
   TimingHistogram cycle_wall = {};  ///< Wall time of a cycle of the contact loop.
@@ -66,7 +83,7 @@ struct WallSessionReport {
 /// @param devices   one for each tool
 /// @param on_tick   called with each tick, in order
 /// @param on_cycle  called with each cycle, in order, and the time [ns] of its targets
-/// @throws std::invalid_argument as HapticSession; the duration is not > 0
+/// @throws std::invalid_argument as HapticSession; a number of `wall` is out of its range
 [[nodiscard]] FIRSTCONTACT_API WallSessionReport run_wall_session(
     HapticScene scene, const HapticSessionOptions& options, std::span<Device* const> devices,
     const WallSessionOptions& wall, const std::function<void(const ForceTick&)>& on_tick = {},

@@ -154,6 +154,9 @@ std::string haptic_timing_csv(const WallSessionReport& report) {
     }
   };
   add("tick_cpu", report.tick_cpu);
+  for (std::size_t k = 0; k < kContactClasses; ++k) {
+    add("tick_cpu_contacts_" + std::to_string(least_contacts(k)), report.tick_cpu_by_contacts[k]);
+  }
   add("tick_wall", report.tick_wall);
   add("tick_delay", report.tick_delay);
   add("empty_delay", report.empty_delay);

@@ -43,7 +43,7 @@ struct GripColumns {
                                                              std::int64_t time_ns);
 
 /// Writes the histograms of a session on the wall clock as CSV: what,from_ns,count for each bucket
-/// with a count.
+/// with a count. `tick_cpu_contacts_8` has the ticks with 8 contacts or more, below 16.
 [[nodiscard]] FIRSTCONTACT_API std::string haptic_timing_csv(const WallSessionReport& report);
 
 /// The words of the faults of a tick, joined by a bar; empty without a fault.
