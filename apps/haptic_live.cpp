@@ -24,6 +24,18 @@ std::string numbers(const Eigen::Vector3d& v) {
   return fmt::format("{},{},{}", v.x(), v.y(), v.z());
 }
 
+/// The links of a tool where its device leads them: the number of the body, then its pose.
+std::string links_json(const std::vector<RunDevice>& devices, std::size_t tool) {
+  std::string text;
+  for (const RunDevice& device : devices) {
+    for (std::size_t k = 0; device.body == tool && k < device.links.size(); ++k) {
+      text += fmt::format("{}[{},{}]", k == 0 ? "" : ",", device.links[k].body,
+                          numbers(device.links[k].X_WB));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 HapticLive::HapticLive(const HapticSetup& setup, std::optional<std::size_t> mouse)
@@ -114,15 +126,16 @@ std::string HapticLive::mouse_json(const ForceTick& tick) const {
   return fmt::format(R"("handle":[{}],"grip":{},)", numbers(X_DH), device.grips[0]);
 }
 
-std::string HapticLive::picture(const ForceTick& tick) {
+std::string HapticLive::picture(const ForceTick& tick, const std::vector<RunDevice>& devices) {
   shown_ns_ = tick.time_ns;
   std::string text = "{\"tools\":[";
   for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
     const ToolTick& tool = tick.tools[k];
     const double scale = setup_.options.mappings[k].scale;  // The device feels so much more.
-    text += fmt::format(R"({}{{"target":[{}],"force":[{}],"torque":[{}]}})", k == 0 ? "" : ",",
-                        numbers(tool.target), numbers(Eigen::Vector3d(scale * tool.force_W)),
-                        numbers(tool.torque_W));
+    text += fmt::format(R"({}{{"target":[{}],"force":[{}],"torque":[{}],"links":[{}]}})",
+                        k == 0 ? "" : ",", numbers(tool.target),
+                        numbers(Eigen::Vector3d(scale * tool.force_W)), numbers(tool.torque_W),
+                        links_json(devices, setup_.bodies[k]));
   }
   text += "]," + mouse_json(tick);
   text += "\"bodies\":[";

@@ -33,7 +33,9 @@ class HapticLive {
   [[nodiscard]] bool is_due(const ForceTick& tick) const;
 
   /// A picture as JSON.
-  [[nodiscard]] std::string picture(const ForceTick& tick);
+  ///
+  /// @param devices  of the tick, as a run has them
+  [[nodiscard]] std::string picture(const ForceTick& tick, const std::vector<RunDevice>& devices);
 
  private:
   [[nodiscard]] std::vector<std::size_t> links(std::size_t tool) const;

@@ -206,7 +206,7 @@ class HapticsRun {
       step_devices_.add(tick.time_ns, record_->devices(tick));
     }
     if (live_ && live_->is_due(tick)) {
-      server_->show(live_->picture(tick));
+      server_->show(live_->picture(tick, record_->devices(tick)));
     }
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size(), columns()));

@@ -299,12 +299,15 @@ TEST(RunFile, KnowsWhereItWasCutOff) {
 }
 
 /// A haptic run of one step.
-std::string felt_run(Doubles& doubles) {
+std::string felt_run(Doubles& doubles, bool has_link = false) {
   RunHeader header = example_header();
   header.kind = RunKind::haptics;
   RunStep step = example_step(1, doubles);
   step.devices.push_back(
       {.body = 0, .X_WB = doubles.pose(), .force = doubles.vector(), .torque = doubles.vector()});
+  if (has_link) {
+    step.devices[0].links = {{.body = 0, .X_WB = doubles.pose()}};
+  }
   return write_run_header(header) + write_run_step(step);
 }
 
@@ -317,6 +320,25 @@ TEST(RunFile, HoldsDevicesOfHapticTools) {
   const RunStep step = reader.next().value();
   ASSERT_EQ(step.devices.size(), 1U);
   EXPECT_EQ(header + write_run_step(step), text);
+}
+
+TEST(RunFile, HoldsLinksWhereDevicesLeadThem) {
+  Doubles doubles;
+  const std::string text = felt_run(doubles, true);
+  std::istringstream stream(text);
+  RunReader reader(stream, "run.jsonl");
+  const std::string header = write_run_header(reader.header());
+  const RunStep step = reader.next().value();
+  ASSERT_EQ(step.devices[0].links.size(), 1U);
+  EXPECT_EQ(header + write_run_step(step), text);
+  const std::string links = text.substr(text.find("\"links\":[") + 9);
+  const std::string one = links.substr(0, links.find('}') + 1);
+  EXPECT_EQ(complaint(with(text, one, one + "," + one)),
+            "run.jsonl:2: devices[0].links[1].body: expected links in the order of their numbers, "
+            "each once");
+  EXPECT_EQ(complaint(with(text, one, with(one, "\"body\":0", "\"body\":1"))),
+            "run.jsonl:2: devices[0].links[0].body: expected the number of a link, a body with a "
+            "mass");
 }
 
 TEST(RunFile, SaysWhichDeviceIsWrong) {

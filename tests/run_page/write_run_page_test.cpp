@@ -112,6 +112,15 @@ TEST(RunPage, HoldsDevicesFromTheirFirstStepOn) {
                          base64_single({7, 8, 9}) + "\"}]");
 }
 
+TEST(RunPage, HoldsLinksWhereDevicesLeadThem) {
+  test::RecordedRun run(kScene);
+  RunDevice device;
+  device.links = {{.body = 1, .X_WB = {{1, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)}}};
+  run.add({{0, {{.lasts = 1.0}}}}).devices = {device};
+  expect_holds(page_of(run), R"(,"links":[{"body":1,"positions":")" + base64({1, 2, 3}) +
+                                 R"(","rotations":")" + base64_single({0, 1, 0, 0}) + "\"}]}]");
+}
+
 TEST(RunPage, SaysWhereLinksBegin) {
   test::RecordedRun run(kScene);
   run.add({{0, {{.lasts = 1.0}}}});

@@ -11,7 +11,10 @@ export interface DeviceMoment {
   readonly pose: Pose; ///< Of the tool, where the device leads it.
   readonly force: Vector3; ///< [N] On the device.
   readonly torque: Vector3; ///< [N m] On the device, about the centre of the tool.
+  readonly links: readonly Pose[]; ///< Of the links of a hand, where the device leads them.
 }
+
+type PoseRows = Pick<DeviceData, "positions" | "rotations">;
 
 /// A body that a device moves.
 interface Tool {
@@ -21,6 +24,7 @@ interface Tool {
 
 export class Device {
   readonly body: number;
+  readonly links: readonly number[]; ///< The bodies of a hand's links.
   readonly name: string; ///< Of its tool.
   readonly forces: readonly number[]; ///< [N] Of each step.
   readonly torques: readonly number[]; ///< [N m] Of each step.
@@ -37,6 +41,7 @@ export class Device {
   ) {
     const duration = steps.at(-1)!.time;
     this.body = data.body;
+    this.links = data.links.map(({ body }) => body);
     this.name = tool.name;
     this.begins = steps.map(({ time, lasted }) => (time - lasted) / duration);
     const each = (of: (moment: DeviceMoment, step: number) => number): number[] =>
@@ -53,7 +58,7 @@ export class Device {
 
   /// Null before the first step that has the device.
   at(step: number): DeviceMoment | null {
-    const { steps, positions, rotations, forces, torques } = this.data;
+    const { steps, forces, torques, links } = this.data;
     const k = firstNotLess(steps, step + 1) - 1;
     if (k < 0) {
       return null;
@@ -63,12 +68,15 @@ export class Device {
       numbers[3 * k + 1]!,
       numbers[3 * k + 2]!,
     ];
-    const [w, x, y, z] = rotations.subarray(4 * k, 4 * k + 4);
-    const rotation = unitQuaternion([w!, x!, y!, z!]);
+    const pose = ({ positions, rotations }: PoseRows): Pose => {
+      const [w, x, y, z] = rotations.subarray(4 * k, 4 * k + 4);
+      return { position: row(positions), rotation: unitQuaternion([w!, x!, y!, z!]) };
+    };
     return {
-      pose: { position: row(positions), rotation },
+      pose: pose(this.data),
       force: row(forces),
       torque: row(torques),
+      links: links.map(pose),
     };
   }
 

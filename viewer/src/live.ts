@@ -9,6 +9,8 @@ export interface ToolPicture {
   readonly target: readonly number[]; ///< Where the device leads it: x, y, z [m], w, x, y, z.
   readonly force: Vector3; ///< [N] On the hand.
   readonly torque: Vector3; ///< [N m]
+  /// Links where the device leads them: number of the body, then its pose.
+  readonly links: readonly (readonly number[])[];
 }
 
 /// A picture of the session, 60 times a second.

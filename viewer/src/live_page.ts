@@ -150,6 +150,7 @@ export function startLive(model: Model, live: LiveSession): void {
   const markers = new LiveMarkers(
     live.tools.map((tool) => ({
       view: view.bodies[tool.body]!,
+      links: tool.links.map((link) => view.bodies[link]!),
       centre: centreOf(model, tool),
       size: view.bounds.bodiesAt([model.bodies[tool.body]!], 0).radius,
     })),

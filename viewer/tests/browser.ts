@@ -261,7 +261,10 @@ declare global {
         devices: {
           ghosts: {
             visible: boolean;
-            children: { visible: boolean; matrix: { elements: number[] } }[];
+            children: {
+              visible: boolean;
+              children: { matrix: { elements: number[] } }[];
+            }[];
           };
           arrows: {
             visible: boolean;

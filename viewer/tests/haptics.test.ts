@@ -72,7 +72,11 @@ describe.skipIf(!canLook)("the page of a haptic run", () => {
         const { ghosts, arrows } = window.firstcontact.view.devices!;
         const arrow = arrows.children[index!]!;
         return {
-          ghost: ghosts.children[index!]!.matrix.elements.slice(12, 15) as [number, number, number],
+          ghost: ghosts.children[index!]!.children[0]!.matrix.elements.slice(12, 15) as [
+            number,
+            number,
+            number,
+          ],
           arrow: arrow.visible ? arrow.scale.z : 0,
           at: arrow.position.clone().add(arrows.position).toArray(),
         };

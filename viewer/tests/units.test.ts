@@ -76,6 +76,13 @@ describe("a device", () => {
       rotations: new Float32Array([w, 0, 0, z, 1, 0, 0, 0]),
       forces: new Float32Array([0, 0, 0, 3, 4, 0]),
       torques: new Float32Array([0, 0, 0.5, 0, 0, 0]),
+      links: [
+        {
+          body: 2,
+          positions: new Float64Array([0, 1, 0, 3, 1, 0]),
+          rotations: new Float32Array([1, 0, 0, 0, w, 0, 0, z]),
+        },
+      ],
     },
     { name: "peg", motion: (t) => ({ position: [4 * t, 0, 0], rotation: [1, 0, 0, 0] }) },
     [1, 0, 0],
@@ -87,6 +94,9 @@ describe("a device", () => {
     expect(device.at(2)!.force).toEqual([3, 4, 0]);
     expect(device.forces).toEqual([0, 0, 5]);
     expect(device.torques).toEqual([0, 0.5, 0]);
+    expect(device.links).toEqual([2]);
+    expect(device.at(2)!.links[0]!.position).toEqual([3, 1, 0]);
+    expect(device.at(2)!.links[0]!.rotation[3]).toBeCloseTo(z, 6);
   });
 
   test("is ahead of its tool by the distance of their centres as a step begins", () => {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <tuple>
 #include <utility>
 
+#include <firstcontact/haptics/detail/tool_links.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/version.h>
 
@@ -44,14 +46,21 @@ RunContact run_contact(const HapticTouch& touch, std::size_t other, std::size_t 
 
 HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double contact_distance)
     : header_{.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest},
-      bodies_(setup.bodies) {
+      bodies_(setup.bodies),
+      links_(std::make_shared<const detail::ToolLinks>(setup.scene.tools)) {
   header_.kind = RunKind::haptics;
   header_.scene.simulation->contact_distance = contact_distance;
   header_.masses.assign(loaded.scene.bodies.size(), 0.0);
   header_.centres_of_mass.assign(loaded.scene.bodies.size(), Eigen::Vector3d::Zero());
   const std::size_t tools = setup.scene.tools.size();
-  for (std::size_t k = tools + setup.scene.bodies.size(); k < bodies_.size(); ++k) {
-    header_.masses[bodies_[k]] = 1.0;  // Links turn about their origins.
+  std::size_t member = tools + setup.scene.bodies.size();
+  for (const HapticTool& tool : setup.scene.tools) {
+    for (const HapticLink& link : tool.links) {
+      link_bodies_.push_back(link.shape ? std::optional(bodies_[member++]) : std::nullopt);
+      if (link.shape) {
+        header_.masses[*link_bodies_.back()] = 1.0;  // Links turn about their origins.
+      }
+    }
   }
   for (std::size_t k = 0; k < tools; ++k) {
     const auto& mappings = setup.options.mappings;
@@ -62,6 +71,13 @@ HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double
 }
 
 std::vector<RunDevice> HapticRun::devices(const ForceTick& tick) const {
+  std::array<Pose, kMostTools> targets;
+  std::array<Pose, kMostHapticLinks> X_WL;
+  std::array<HapticAxis, kMostHapticLinks> axes;
+  for (std::size_t k = 0; k < scales_.size(); ++k) {
+    targets[k] = tick.tools[k].target;
+  }
+  links_->place(targets, std::span(tick.joint_targets).first(tick.joints), X_WL, axes);
   std::vector<RunDevice> made;
   for (std::size_t k = 0; k < scales_.size(); ++k) {
     const ToolTick& tool = tick.tools[k];
@@ -69,6 +85,12 @@ std::vector<RunDevice> HapticRun::devices(const ForceTick& tick) const {
                     .X_WB = tool.target,
                     .force = scales_[k] * tool.force_W,
                     .torque = tool.torque_W});
+    for (std::size_t link = 0; link < link_bodies_.size(); ++link) {
+      if (link_bodies_[link] && links_->nodes()[link].tool == k) {
+        made.back().links.push_back({.body = *link_bodies_[link], .X_WB = X_WL[link]});
+      }
+    }
+    std::ranges::sort(made.back().links, {}, &RunDeviceLink::body);
   }
   std::ranges::sort(made, {}, &RunDevice::body);
   return made;

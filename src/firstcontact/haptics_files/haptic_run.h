@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <firstcontact/haptics/contact_loop.h>
@@ -12,6 +14,10 @@
 #include <firstcontact/record/run.h>
 
 namespace firstcontact {
+
+namespace detail {
+class ToolLinks;
+}  // namespace detail
 
 /// Writes cycles of a contact loop as steps of a run (docs/run_format.md).
 ///
@@ -41,9 +47,11 @@ class FIRSTCONTACT_API HapticRun {
  private:
   RunHeader header_;
   std::vector<std::size_t> bodies_;
-  std::vector<double> scales_;  // DeviceMapping::scale of each tool.
-  double time_ = 0.0;           // [s]
-  double behind_ = 0.0;         // [s]  The time that all courses have waited for tools.
+  std::shared_ptr<const detail::ToolLinks> links_;
+  std::vector<std::optional<std::size_t>> link_bodies_;  // Bodies of links that have a shape.
+  std::vector<double> scales_;                           // DeviceMapping::scale of each tool.
+  double time_ = 0.0;                                    // [s]
+  double behind_ = 0.0;  // [s]  The time that all courses have waited for tools.
   std::size_t count_ = 0;
 };
 

@@ -313,17 +313,39 @@ std::vector<RunTie> read_ties(const json& root, std::size_t count, const Line& l
   return ties;
 }
 
-RunDevice read_device(const json& value, const RunHeader& header, const Line& line) {
-  line.require_keys(value, {"body", "position", "quaternion_wxyz", "force", "torque"});
+/// Reads the number of a body with a mass; `last` has the number before it in the list.
+std::size_t read_moved_body(const json& value, const std::string& what, std::optional<std::size_t>& last,
+                            const RunHeader& header, const Line& line) {
   const std::size_t body = line.index(value["body"], header.masses.size());
   if (!(header.masses[body] > 0.0)) {
-    line.fail(value["body"], "the number of a tool, a body with a mass");
+    line.fail(value["body"], "the number of a " + what + ", a body with a mass");
   }
-  return {.body = body,
-          .X_WB = {line.vector3(value["position"]),
-                   line.quaternion(line.array(value["quaternion_wxyz"], 4), 0)},
-          .force = line.vector3(value["force"]),
-          .torque = line.vector3(value["torque"])};
+  if (last && body <= *last) {
+    line.fail(value["body"], what + "s in the order of their numbers, each once");
+  }
+  last = body;
+  return body;
+}
+
+Pose read_pose(const json& value, const Line& line) {
+  return {line.vector3(value["position"]),
+          line.quaternion(line.array(value["quaternion_wxyz"], 4), 0)};
+}
+
+std::vector<RunDeviceLink> read_device_links(const json& device, const RunHeader& header,
+                                             const Line& line) {
+  std::vector<RunDeviceLink> links;
+  std::optional<std::size_t> last;
+  const auto array = device.find("links");
+  if (array == device.end()) {
+    return links;
+  }
+  for (const json& link : line.array(*array)) {
+    line.require_keys(link, {"body", "position", "quaternion_wxyz"});
+    links.push_back(
+        {.body = read_moved_body(link, "link", last, header, line), .X_WB = read_pose(link, line)});
+  }
+  return links;
 }
 
 std::vector<RunDevice> read_devices(const json& root, const RunHeader& header, const Line& line) {
@@ -335,11 +357,15 @@ std::vector<RunDevice> read_devices(const json& root, const RunHeader& header, c
   if (header.kind != RunKind::haptics) {
     line.fail(*array, "no such key here: only runs of haptics have devices");
   }
-  for (const json& element : line.array(*array)) {
-    devices.push_back(read_device(element, header, line));
-    if (devices.size() > 1 && devices.back().body <= devices[devices.size() - 2].body) {
-      line.fail(element["body"], "tools in the order of their numbers, each once");
-    }
+  std::optional<std::size_t> last;
+  for (const json& device : line.array(*array)) {
+    line.require_keys(device, {"body", "position", "quaternion_wxyz", "force", "torque"},
+                      {"links"});
+    devices.push_back({.body = read_moved_body(device, "tool", last, header, line),
+                       .X_WB = read_pose(device, line),
+                       .force = line.vector3(device["force"]),
+                       .torque = line.vector3(device["torque"]),
+                       .links = read_device_links(device, header, line)});
   }
   return devices;
 }

@@ -85,6 +85,12 @@ struct RunTie {
                                                      ///< hinge or a weld.
 };
 
+/// A link of a haptic tool where the device leads it.
+struct RunDeviceLink {
+  std::size_t body = 0;
+  Pose X_WB = {};
+};
+
 /// The device of a haptic tool at the begin of a step.
 struct RunDevice {
   std::size_t body = 0;                              ///< The tool.
@@ -93,6 +99,8 @@ struct RunDevice {
                                                      ///< centre of mass in X_WB, world axes.
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]  Torque on the device about that
                                                      ///< centre, world axes.
+  std::vector<RunDeviceLink> links = {};             ///< Links that grips move, in the order of
+                                                     ///< bodies.
 };
 
 /// A step of a run.

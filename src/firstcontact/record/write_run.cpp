@@ -162,6 +162,16 @@ class StepText {
       field("quaternion_wxyz", device.X_WB.rotation);
       field("force", device.force);
       field("torque", device.torque);
+      if (!device.links.empty()) {
+        field("links", device.links);
+      }
+    });
+  }
+  void add(const RunDeviceLink& link) {
+    object([&] {
+      field("body", link.body);
+      field("position", link.X_WB.position);
+      field("quaternion_wxyz", link.X_WB.rotation);
     });
   }
   void add(const RunImpact& impact) {

@@ -101,6 +101,12 @@ void RunPage::add(const RunDevice& device) {
   add_single(rows->rotations, device.X_WB.rotation);
   add_single(rows->forces, device.force);
   add_single(rows->torques, device.torque);
+  rows->links.resize(device.links.size());
+  for (std::size_t k = 0; k < device.links.size(); ++k) {
+    rows->links[k].body = device.links[k].body;
+    rows->links[k].positions.add(device.links[k].X_WB.position);
+    add_single(rows->links[k].rotations, device.links[k].X_WB.rotation);
+  }
 }
 
 /// The header of a page. Links are bodies there, and the page has their meshes elsewhere.
@@ -144,12 +150,21 @@ std::string RunPage::contacts_json() const {
 std::string RunPage::devices_json() const {
   nlohmann::ordered_json devices = nlohmann::ordered_json::array();
   for (const DeviceRows& rows : devices_) {
+    nlohmann::ordered_json links = nlohmann::ordered_json::array();
+    for (const DeviceLinkRows& link : rows.links) {
+      links.push_back({{"body", link.body},
+                       {"positions", link.positions.base64()},
+                       {"rotations", link.rotations.base64()}});
+    }
     devices.push_back({{"body", rows.body},
                        {"steps", rows.steps.base64()},
                        {"positions", rows.positions.base64()},
                        {"rotations", rows.rotations.base64()},
                        {"forces", rows.forces.base64()},
                        {"torques", rows.torques.base64()}});
+    if (!links.empty()) {
+      devices.back()["links"] = std::move(links);
+    }
   }
   return devices.dump();
 }

@@ -53,6 +53,13 @@ class FIRSTCONTACT_API RunPage {
     Pose X_WB;              // Pose at the end.
   };
 
+  /// A link of a tool where its device leads it, for each step of the device.
+  struct DeviceLinkRows {
+    std::size_t body = 0;
+    PageNumbers positions;  // [m]
+    PageNumbers rotations;  // w, x, y, z of R_WB
+  };
+
   /// The device of a tool, step after step.
   struct DeviceRows {
     std::size_t body = 0;
@@ -61,6 +68,7 @@ class FIRSTCONTACT_API RunPage {
     PageNumbers rotations;  // w, x, y, z of R_WB
     PageNumbers forces;     // [N]
     PageNumbers torques;    // [N m]
+    std::vector<DeviceLinkRows> links;
   };
 
   void begin_piece(std::size_t body, double time, const Pose& X_WB, const Eigen::Vector3d& turn);

@@ -74,6 +74,14 @@ export interface DeviceData {
   readonly rotations: Float32Array; ///< w, x, y, z
   readonly forces: Float32Array; ///< [N] On the device.
   readonly torques: Float32Array; ///< [N m] On the device, about the centre of mass.
+  readonly links: readonly DeviceLinkData[]; ///< Of a hand: its fingers.
+}
+
+/// A link of a tool where the device leads it, a row for each row of the device.
+export interface DeviceLinkData {
+  readonly body: number;
+  readonly positions: Float64Array; ///< [m]
+  readonly rotations: Float32Array; ///< w, x, y, z
 }
 
 export interface RunHeader {
@@ -113,7 +121,10 @@ export interface StoredRun {
   readonly steps: readonly StepData[];
   readonly ways: readonly Stored<WayData>[];
   readonly contacts: Stored<RunContactsData>;
-  readonly devices?: readonly Stored<DeviceData>[];
+  /// Links are left out where a tool has none.
+  readonly devices?: readonly (Stored<Omit<DeviceData, "links">> & {
+    readonly links?: readonly Stored<DeviceLinkData>[];
+  })[];
 }
 
 const doubles = (text: string): Float64Array => new Float64Array(bytesOf(text));
@@ -140,13 +151,18 @@ export function runOf(stored: StoredRun): RunData {
       impulses: singles(contacts.impulses),
       distances: singles(contacts.distances),
     },
-    devices: devices.map(({ body, ...rows }) => ({
+    devices: devices.map(({ body, links = [], ...rows }) => ({
       body,
       steps: counts(rows.steps),
       positions: doubles(rows.positions),
       rotations: singles(rows.rotations),
       forces: singles(rows.forces),
       torques: singles(rows.torques),
+      links: links.map(({ body, positions, rotations }) => ({
+        body,
+        positions: doubles(positions),
+        rotations: singles(rotations),
+      })),
     })),
   };
 }

@@ -17,7 +17,7 @@ const mostGrowth = 2.5; // Of what is looked at first.
 const mostSamples = 500; // Of a device's way, for the camera.
 
 export class DeviceMarkers {
-  readonly ghosts = new Group();
+  readonly ghosts = new Group(); ///< Of each device a group: of its tool, and of its links.
   readonly arrows = new Group();
   private readonly perNewton: number; // [m]
   private step = -1;
@@ -47,8 +47,8 @@ export class DeviceMarkers {
   /// Makes the ghosts anew, as their bodies look now.
   makeGhosts(): void {
     dispose(this.ghosts);
-    for (const { body } of this.devices) {
-      this.ghosts.add(ghostOfTool(this.views[body]!));
+    for (const { body, links } of this.devices) {
+      this.ghosts.add(ghostOfHand([body, ...links].map((each) => this.views[each]!)));
     }
     this.step = -1;
   }
@@ -60,7 +60,7 @@ export class DeviceMarkers {
       const ghost = this.ghosts.children[k]!;
       ghost.visible = moment !== null && this.views[device.body]!.group.visible;
       if (moment && step !== this.step) {
-        setPose(ghost, moment.pose);
+        [moment.pose, ...moment.links].forEach((pose, n) => setPose(ghost.children[n]!, pose));
       }
       const strength = moment ? length(moment.force) : 0;
       const arrow = this.arrows.children[k]!;
@@ -80,11 +80,15 @@ export class DeviceMarkers {
   }
 }
 
-/// A copy of a tool that shows where its device leads it.
-export function ghostOfTool(view: BodyView): Group {
-  const ghost = view.ghost(0, ghostOpacity);
-  ghost.traverse(seeThrough);
-  return ghost;
+/// Copies of a tool and of its links, which show where the device leads them.
+export function ghostOfHand(views: readonly BodyView[]): Group {
+  const hand = new Group();
+  for (const view of views) {
+    const ghost = view.ghost(0, ghostOpacity);
+    ghost.traverse(seeThrough);
+    hand.add(ghost);
+  }
+  return hand;
 }
 
 /// A device may lead its tool into a body, which would hide the ghost.

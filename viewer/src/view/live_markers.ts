@@ -16,7 +16,7 @@ import { place } from "../motion/motion";
 import { length } from "../motion/vector";
 import type { BodyView } from "./body_view";
 import { overlay, roundDot } from "./contact_view";
-import { ghostOfTool } from "./device_view";
+import { ghostOfHand } from "./device_view";
 import { arrowGeometry } from "./force_view";
 import { dispose, setPose } from "./geometry_view";
 
@@ -27,6 +27,7 @@ const mostLength = 2; // In radii of the tool.
 /// A tool that is drawn with its device.
 export interface MarkedTool {
   readonly view: BodyView;
+  readonly links: readonly BodyView[];
   readonly centre: Triple; ///< In the frame of the tool: the force acts there.
   readonly size: number; ///< [m] Radius of the tool.
 }
@@ -65,7 +66,7 @@ export class LiveMarkers {
   /// Makes the ghosts anew, as their bodies look now.
   makeGhosts(): void {
     dispose(this.ghosts);
-    this.ghosts.add(...this.tools.map(({ view }) => ghostOfTool(view)));
+    this.ghosts.add(...this.tools.map(({ view, links }) => ghostOfHand([view, ...links])));
   }
 
   show(picture: Picture): void {
@@ -74,9 +75,15 @@ export class LiveMarkers {
       "position",
       new Float32BufferAttribute(picture.contacts.flat(), 3),
     );
-    this.tools.forEach(({ view, centre, size }, k) => {
-      const { target, force } = picture.tools[k]!;
-      setPose(this.ghosts.children[k]!, poseFrom(target));
+    this.tools.forEach((tool, k) => {
+      const { view, centre, size } = tool;
+      const { target, force, links } = picture.tools[k]!;
+      const ghost = this.ghosts.children[k]!;
+      setPose(ghost.children[0]!, poseFrom(target));
+      for (const [body, ...pose] of links) {
+        const at = tool.links.findIndex((link) => link.body.index === body);
+        setPose(ghost.children[at + 1]!, poseFrom(pose));
+      }
       const pose = poseIn(picture, view.body.index);
       const strength = length(force);
       const arrow = this.arrows[k]!;
