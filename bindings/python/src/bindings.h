@@ -27,4 +27,7 @@ void bind_verification(pybind11::module_& m);
 void bind_planning(pybind11::module_& m);
 void bind_retiming(pybind11::module_& m);
 
+/// Lets functions refuse objects that `__new__` alone has made. Call it after all classes.
+void refuse_unmade_objects(pybind11::module_& m);
+
 }  // namespace firstcontact::python

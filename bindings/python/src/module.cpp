@@ -24,6 +24,7 @@ PYBIND11_MODULE(_core, m) {
   bind_verification(m);
   bind_planning(m);
   bind_retiming(m);
+  refuse_unmade_objects(m);
 }
 
 }  // namespace firstcontact::python
