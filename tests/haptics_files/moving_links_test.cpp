@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -140,6 +141,27 @@ TEST_F(MovingLinks, AreWhereTheRobotHasThem) {
   }
 }
 
+/// Requires that the device of a step has the links where it leads them.
+void expect_links(const HapticSetup& setup, const ForceTick& tick, const RunStep& step) {
+  const detail::ToolLinks links(setup.scene.tools);
+  std::array<Pose, kMostHapticLinks> poses;
+  std::array<HapticAxis, kMostHapticLinks> axes;
+  links.place(std::array{tick.tools[0].target}, std::span(tick.joint_targets).first(tick.joints),
+              poses, axes);
+  std::size_t found = 0;
+  for (std::size_t link = 0; link < setup.scene.tools[0].links.size(); ++link) {
+    if (setup.scene.tools[0].links[link].shape) {
+      ASSERT_LT(found, step.devices[0].links.size());
+      const RunDeviceLink& of_device = step.devices[0].links[found];
+      EXPECT_EQ(of_device.X_WB.position, poses[link].position);
+      EXPECT_EQ(of_device.body, setup.bodies[setup.bodies.size() - 5 + found]);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 5U);  // Badge, near, far, tip and thumb.
+  EXPECT_EQ(step.devices[0].links.size(), found);
+}
+
 /// A session of a hand that knows nothing of the scene, as a run.
 std::string run_of(const LoadedScene& loaded, const HapticSetup& setup) {
   RandomPathOptions path;
@@ -159,7 +181,9 @@ std::string run_of(const LoadedScene& loaded, const HapticSetup& setup) {
     hand.command(tick.tools[0].command, now);
     if (session.cycle() != nullptr) {
       contacts += session.cycle()->contacts > 0 ? 1 : 0;
-      text += write_run_step(run.step(*session.cycle()));
+      const RunStep step = run.step(*session.cycle(), run.devices(tick));
+      expect_links(setup, tick, step);
+      text += write_run_step(step);
     }
   }
   EXPECT_GT(contacts, 300U);
