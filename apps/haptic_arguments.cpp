@@ -200,9 +200,10 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
       ->type_name("[PORT]");
   add_file(command, "--timing", arguments.timing, "Writes histograms of all ticks (.csv)")
       ->needs(wall);
-  add_number(command, "--empty-loop", arguments.empty_loop, Range::not_negative,
-             "[s] Runs a loop that does nothing for this time first, on the wall clock, to compare "
-             "its late ticks; 0.2 by default, at most the duration")
+  add_number(
+      command, "--empty-loop", arguments.empty_loop, Range::not_negative,
+      "[s] Time for which a loop that does nothing runs first, to compare its late ticks. 0.2 "
+      "by default; at most the duration")
       ->needs(wall);
   command.add_flag("--force", arguments.force, "Replaces the output file")->needs(run);
   command.footer(kFooter);
