@@ -163,6 +163,68 @@ TEST(ContactPairs, CloseAtTheGoal) {
   EXPECT_EQ(retime(both, kOfSlides, where).proof.contact.verdict, Verdict::contact_at_start);
 }
 
+/// Open at both ends: until the first rest at one place, and from the last rest at another one on.
+RetimingScene open_at_both_ends(const std::vector<double>& after,
+                                const std::vector<double>& before) {
+  RetimingScene where = held_beside_post(after);
+  where.holds.push_back(held_beside_post(before, PathEnd::goal).holds.front());
+  return where;
+}
+
+TEST(ContactPairs, OpenAtBothEnds) {
+  const WaypointPath round_trip =
+      slides_along({{0, 0}, {-0.1, 0}, {-0.3, 0.2}, {-0.5, 0}, {-0.3, -0.2}, {-0.1, 0.01}, {0, 0}});
+  const RetimingScene where = open_at_both_ends({-0.1, 0}, {-0.1, 0.01});
+  for (const RetimingMode mode : kAllModes) {
+    const RetimedMotion retimed = retime(round_trip, kOfSlides, where, {.mode = mode});
+    ASSERT_TRUE(retimed.proof.is_proven());
+    EXPECT_EQ(retimed.mode, mode);
+    const double end = retimed.motion.duration();
+    ASSERT_EQ(retimed.proof.held.size(), 2u);
+    const double open = retimed.proof.held[0].to;
+    const double closes = retimed.proof.held[1].from;
+    EXPECT_LT(open, closes);
+    EXPECT_EQ(retimed.proof.held[0].from, 0.0);
+    EXPECT_EQ(retimed.proof.held[1].to, end);
+    EXPECT_GE(least_gap(retimed.motion, 0.0, open), kHeld);
+    EXPECT_GE(least_gap(retimed.motion, open, closes), kMarginOfAll);
+    EXPECT_GE(least_gap(retimed.motion, closes, end), kHeld);
+    const std::string text = write_trajectory(retimed.motion, TrajectoryFormat::yaml);
+    const TimedMotion read = parse_timed_motion(text, "way.yaml", joined_model(where));
+    EXPECT_TRUE(prove_motion(read, kOfSlides, where).is_proven());
+  }
+}
+
+TEST(ContactPairs, KeepTheirMarginBetweenTwoOpenEnds) {
+  const WaypointPath near = slides_along(
+      {{0, 0}, {-0.1, 0}, {-0.3, 0.2}, {-0.005, 0}, {-0.3, -0.2}, {-0.1, 0.01}, {0, 0}});
+  const RetimingScene where = open_at_both_ends({-0.1, 0}, {-0.1, 0.01});
+  for (const RetimingMode mode : kAllModes) {
+    const RetimedMotion retimed = retime(near, kOfSlides, where, {.mode = mode});
+    ASSERT_EQ(retimed.proof.contact.verdict, Verdict::contact);
+    EXPECT_GT(retimed.proof.contact_time(), retimed.proof.held.at(0).to);
+    EXPECT_LT(retimed.proof.contact_time(), retimed.proof.held.at(1).from);
+  }
+}
+
+// One place may be where the pair has opened and where its way back begins: it is open there.
+TEST(ContactPairs, AreOpenWhereTwoEndsMeet) {
+  for (const RetimingMode mode : kAllModes) {
+    const WaypointPath there = slides_along({{0, 0}, {-0.1, 0}, {0, 0}});
+    const RetimingScene where = open_at_both_ends({-0.1, 0}, {-0.1, 0});
+    EXPECT_TRUE(retime(there, kOfSlides, where, {.mode = mode}).proof.is_proven());
+    // At 9 mm, which each hold would allow and the margin does not.
+    const WaypointPath too_near = slides_along({{0, 0}, {-0.008, 0}, {0, 0}});
+    const RetimingScene never = open_at_both_ends({-0.008, 0}, {-0.008, 0});
+    const RetimedMotion retimed = retime(too_near, kOfSlides, never, {.mode = mode});
+    EXPECT_EQ(retimed.proof.contact.verdict, Verdict::contact);
+    EXPECT_NEAR(retimed.proof.contact_time(), retimed.proof.held.at(0).to, 1e-9);
+  }
+  const WaypointPath swapped = slides_along({{0, 0}, {-0.1, 0}, {-0.2, 0}, {0, 0}});
+  EXPECT_THROW((void)retime(swapped, kOfSlides, open_at_both_ends({-0.2, 0}, {-0.1, 0})),
+               std::invalid_argument);
+}
+
 TEST(ContactPairs, AreHeldBesidePaddings) {
   RetimingScene where = held_beside_post();
   where.scene.set_padding(kBallAndPost[0], 0.02);

@@ -48,7 +48,7 @@ struct PositionLimits {
 struct RetimingScene {
   RobotScene scene;
   std::vector<std::size_t> robots = {0};  ///< Robots of the scene; one or more, each once.
-  std::vector<RetimingHold> holds = {};   ///< Each pair once.
+  std::vector<RetimingHold> holds = {};   ///< Each pair once, or where it opens at both ends twice.
   /// Limits of joints beside those of their robots, which hold, too. Joints are named as those of
   /// joined_model().
   std::map<std::string, PositionLimits> positions = {};

@@ -76,11 +76,36 @@ HeldStretches::HeldStretches(const TimedMotion& motion, std::span<const Retiming
     stretches_.push_back({0, 0});
   }
   for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut) {
+    if (*cut > 0 && is_held_on_both_sides(*cut)) {
+      stretches_.push_back({*cut, *cut});
+    }
     stretches_.push_back({*cut, *std::next(cut)});
   }
   if (cuts_end && end > 0) {
     stretches_.push_back({end, end});
   }
+}
+
+bool HeldStretches::is_held_on_both_sides(std::size_t cut) const {
+  bool any = false;
+  for (const RetimingHold& opening : holds_) {
+    for (const RetimingHold& closing : holds_) {
+      const bool are_both_ends = opening.members == closing.members &&
+                                 opening.at == PathEnd::start && closing.at == PathEnd::goal &&
+                                 !opening.opens_at.empty() && !closing.opens_at.empty();
+      if (!are_both_ends) {
+        continue;
+      }
+      const std::size_t opened = held_points(opening).last;
+      const std::size_t closes = held_points(closing).first;
+      if (closes < opened) {
+        throw std::invalid_argument(
+            "expected a motion in which a contact pair has opened before it is held at the goal");
+      }
+      any = any || (opened == cut && closes == cut);
+    }
+  }
+  return any;
 }
 
 HeldStretches::Stretch HeldStretches::held_points(const RetimingHold& hold) const {

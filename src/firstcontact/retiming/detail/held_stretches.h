@@ -19,11 +19,12 @@ namespace firstcontact::detail {
 ///
 /// The cuts are points at which the motion rests. Each belongs to the stretches on both sides, so
 /// that a pair keeps its margin where it has opened. A cut at an end of the motion makes a stretch
-/// of one point.
+/// of one point. So does one where a pair has opened and from which on it is held again.
 class HeldStretches {
  public:
   /// @param motion, holds  are referred to
-  /// @throws std::invalid_argument if the motion does not rest where a pair has to be open
+  /// @throws std::invalid_argument if the motion does not rest where a pair has to be open, or a
+  ///         pair is held at the goal before it has opened
   HeldStretches(const TimedMotion& motion, std::span<const RetimingHold> holds);
 
   [[nodiscard]] std::size_t size() const { return stretches_.size(); }
@@ -47,6 +48,10 @@ class HeldStretches {
     std::size_t first = 0;  // Index of the first point.
     std::size_t last = 0;
   };
+  /// Whether a pair is held until a cut and from there on.
+  ///
+  /// @throws std::invalid_argument if a pair is held at the goal before it has opened
+  [[nodiscard]] bool is_held_on_both_sides(std::size_t cut) const;
   [[nodiscard]] Stretch held_points(const RetimingHold& hold) const;
   [[nodiscard]] double seconds(std::size_t point) const;
 
