@@ -111,7 +111,7 @@ class Plan {
     if (scene.plan) {
       question = *scene.plan;
     } else if (arguments_.scene.empty()) {
-      question = question_of_trajectory(scene);
+      throw ParseError(source_, "expected --start and --goal, or a --request with a goal");
     } else {
       throw ParseError(source_, "expected \"plan\": what moves, and its goal; the scene has none");
     }

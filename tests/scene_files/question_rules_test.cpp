@@ -162,9 +162,31 @@ TEST_F(QuestionRules, TakesAGoalOfALinkAsAPlanAlone) {
   ASSERT_EQ(scene.plan->link_goals.size(), 1u);
   EXPECT_EQ(scene.plan->link_goals[0].link, "tip");
   EXPECT_EQ(scene.plan->link_goals[0].X_WT.position.x(), 1.0);
-  // A goal of joints is a straight motion, also to who plans.
+}
+
+// Who plans has one way to ask, whether goals are of joints or of links, in files or in words.
+TEST_F(QuestionRules, TakesGoalsOfJointsAsAPlan) {
+  RobotQuestion asked = question();
   asked.request = folder_.path() / "goal.yaml";
-  EXPECT_FALSE(read_robot_question(asked).plan);
+  const Scene straight = read_robot_question(asked);
+  EXPECT_FALSE(straight.plan);
+  const Trajectory& motion = straight.robots.at(0).trajectory;
+  ASSERT_EQ(motion.points.size(), 2u);
+  asked.plans = true;
+  const Scene scene = read_robot_question(asked);
+  ASSERT_TRUE(scene.plan.has_value());
+  EXPECT_TRUE(scene.robots.at(0).trajectory.joint_names.empty());
+  ASSERT_EQ(scene.plan->goals.size(), 1u);
+  for (std::size_t k = 0; k < motion.joint_names.size(); ++k) {
+    EXPECT_EQ(scene.plan->goals[0].at(motion.joint_names[k]), motion.points[1].positions[k]);
+  }
+  asked.request.clear();
+  asked.start = {motion.joint_names[0] + "=0.125"};
+  asked.goal = {motion.joint_names[0] + "=0.5"};
+  const Scene in_words = read_robot_question(asked);
+  ASSERT_TRUE(in_words.plan.has_value());
+  EXPECT_EQ(in_words.plan->goals.at(0), (JointPositions{{motion.joint_names[0], 0.5}}));
+  EXPECT_EQ(in_words.robots.at(0).state.at(motion.joint_names[0]), 0.125);
 }
 
 TEST_F(QuestionRules, GivesEveryLinkAndJointItsAllowance) {

@@ -50,7 +50,6 @@ class SceneBuilder {
       add_environment(file, robot);
     }
     if (goal_) {  // The goal begins where the environment has the joints that nothing else moves.
-      keep_the_rest_of_the_group(robot);
       robot.trajectory =
           straight_motion(robot.model, robot.state, *goal_, turning(), velocity_scaling_);
     }
@@ -129,7 +128,12 @@ class SceneBuilder {
       if (question_.start.empty()) {
         refuse("expected a start beside the goal, got none");
       }
-      goal_ = moving(question_.goal, "goal", robot);
+      JointPositions goal = moving(question_.goal, "goal", robot);
+      if (question_.plans) {
+        scene_.plan = PlanQuestion{.robots = {0}, .goals = {std::move(goal)}};
+      } else {
+        goal_ = std::move(goal);
+      }
     }
   }
 
@@ -140,24 +144,29 @@ class SceneBuilder {
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
     velocity_scaling_ = request.velocity_scaling;
-    const bool is_one = request.goals.size() == 1;
-    if (is_one && !request.goals.front().link) {
-      goal_ = request.goals.front().positions;
-      group_ = request.joints;
-    } else if (question_.plans) {
+    if (question_.plans) {
       scene_.plan = question_of(request);
-    } else if (!is_one) {
+    } else {
+      goal_ = only_goal_of(request);
+    }
+    scene_.id = question_.request.filename().string();
+    add_warnings(request.warnings);
+  }
+
+  /// The goal of a straight motion, which has one, of joints.
+  [[nodiscard]] JointPositions only_goal_of(const PlanningRequest& request) const {
+    if (request.goals.size() != 1) {
       throw ParseError(question_.request.string(),
                        "goal_constraints: expected one goal, got " +
                            std::to_string(request.goals.size()) +
                            "; `firstcontact plan` finds a path to any of them");
-    } else {
+    }
+    if (request.goals.front().link) {
       throw ParseError(question_.request.string(),
                        "expected a goal of joint positions, got the pose of a link; "
                        "`firstcontact plan` finds a path to it");
     }
-    scene_.id = question_.request.filename().string();
-    add_warnings(request.warnings);
+    return request.goals.front().positions;
   }
 
   /// The question for a path to any goal of a request.
@@ -171,20 +180,6 @@ class SceneBuilder {
       }
     }
     return plan;
-  }
-
-  /// Gives joints of a request's group that its goal does not name a goal where they start. So a
-  /// plan may move them.
-  void keep_the_rest_of_the_group(const SceneRobot& robot) {
-    if (!question_.plans) {
-      return;
-    }
-    for (const std::string& name : group_) {
-      const auto found = robot.state.find(name);
-      const Joint& joint = robot.model.joints()[find_coordinate(robot.model, name).joint];
-      goal_->try_emplace(name,
-                         found != robot.state.end() ? found->second : default_position(joint));
-    }
   }
 
   /// The way of motions between states.
@@ -426,7 +421,6 @@ class SceneBuilder {
   std::map<std::size_t, std::string> ids_;  // Ids of bodies that come from planning scenes.
   std::filesystem::path around_;
   std::optional<JointPositions> goal_;  // Goal of a straight motion.
-  std::vector<std::string> group_;      // Coordinates of the group of a request.
   double velocity_scaling_ = 1.0;       // [-]  Of that motion.
   std::optional<double> around_duration_;
   bool states_duration_ = false;  // Whether a duration is stated; else the motions span any

@@ -48,9 +48,7 @@ struct RobotQuestion {
   double environment_scale = 1.0;  ///< [-]  Scale of the meshes of the environment; > 0.
   double padding = 0.0;            ///< [m]  Padding of every link.
   double tracking_error = 0.0;     ///< [rad or m]  Tracking error of every joint.
-  /// Whether the goal of a request may be the pose of a link.
-  ///
-  /// It becomes the scene's `plan`, as no straight motion leads there.
+  /// Whether the goals become the scene's `plan`, in place of a straight motion to one of joints.
   bool plans = false;
   ReadingOptions reading = {};
 };
