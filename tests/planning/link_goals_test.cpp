@@ -1,6 +1,7 @@
 // Goals that are poses of links share the time of the question, and its interruption.
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -128,6 +129,20 @@ TEST_F(ChainFile, EndsTheSearchForPlacesWhereItIsStopped) {
   PlanOptions options = plan.options;
   options.stop = stop.get_token();
   EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, options).verdict, PlanVerdict::none);
+}
+
+// The chain is 4.4 m long, from (0.4, 0, 0) on. Where any rotation will do, an angle is no part of the answer.
+TEST_F(ChainFile, TellsHowNearAPoseOfAnyRotationMayCome) {
+  const auto message_for = [&](const std::string& more) {
+    return refusal_of(scene(R"("goal": {"link": "hand", "pose": {"position": [0, 6.8, 0],
+        "rpy": [0, 0, 3]})" + more + R"(}, "time": 0.5)"));
+  };
+  const std::string any = message_for(R"(, "rotation_tolerance": 4)");
+  const std::size_t number = any.find("the nearest is ") + std::string("the nearest is ").size();
+  EXPECT_NEAR(std::stod(any.substr(number)), std::hypot(0.4, 6.8) - 4.4, 1e-3) << any;
+  EXPECT_EQ(any.find(" rad"), std::string::npos) << any;
+  EXPECT_TRUE(any.ends_with(" m off")) << any;
+  EXPECT_TRUE(message_for("").ends_with(" rad off"));
 }
 
 // The planner has no more than what inverse kinematics left.

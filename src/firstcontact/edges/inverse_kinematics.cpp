@@ -59,6 +59,7 @@ class PoseSearch {
   PoseSearch(const ConfigurationSpace& space, const LinkPoseGoal& goal)
       : space_(space),
         goal_(goal),
+        count_(space.coordinates().size()),
         has_rotation_(goal.rotation_tolerance < std::numbers::pi),
         X_LT_(precise(goal.X_LT)),
         R_WT_(goal.X_WT.rotation.normalized().toRotationMatrix()) {}
@@ -79,7 +80,7 @@ class PoseSearch {
   ///
   /// @param is_patient  goes on where it helps little, too
   ReachedPose approach(Configuration q, bool is_patient = false) {
-    for (std::size_t k = 0; k < q.size(); ++k) {
+    for (std::size_t k = 0; k < count_; ++k) {
       q[k] = within_limits(k, q[k]);
     }
     double damping = 1e-3;
@@ -142,10 +143,10 @@ class PoseSearch {
     return weighed(error);
   }
 
-  /// Computes the rates of T along each coordinate, with the others at rest.
+  /// Computes the rates of T along each coordinate, with all else at rest.
   [[nodiscard]] Jacobian jacobian(const Configuration& q) {
-    Jacobian J(6, static_cast<Eigen::Index>(q.size()));
-    for (std::size_t k = 0; k < q.size(); ++k) {
+    Jacobian J(6, static_cast<Eigen::Index>(count_));
+    for (std::size_t k = 0; k < count_; ++k) {
       Configuration to = q;
       to[k] += 1.0;
       const LinkState state = path(q, to).state(0.0, scratch_);
@@ -165,15 +166,15 @@ class PoseSearch {
       J.bottomRows<3>() *= error.tail<3>().isZero(0.0) ? 0.0 : 1.0;
     }
     Configuration next = q;
-    std::vector<bool> is_held(q.size(), false);
-    for (std::size_t round = 0; round <= q.size(); ++round) {
+    std::vector<bool> is_held(count_, false);
+    for (std::size_t round = 0; round <= count_; ++round) {
       Eigen::Matrix<double, 6, 6> A = J * J.transpose();
       A.diagonal().array() += damping;
       Eigen::VectorXd step = J.transpose() * A.ldlt().solve(error);
       const double longest = step.cwiseAbs().maxCoeff();
       step *= longest > kLongestStep ? kLongestStep / longest : 1.0;
       bool has_left = false;
-      for (std::size_t k = 0; k < q.size(); ++k) {
+      for (std::size_t k = 0; k < count_; ++k) {
         if (is_held[k]) {
           continue;
         }
@@ -213,6 +214,7 @@ class PoseSearch {
 
   const ConfigurationSpace& space_;
   const LinkPoseGoal& goal_;
+  std::size_t count_;  // Of coordinates, which a search moves; poses stay.
   bool has_rotation_;
   bool is_loose_ = false;
   PreciseTransform X_LT_;
@@ -245,7 +247,9 @@ struct ReachSearch::Data {
   Configuration next_begin() {
     const std::size_t k = tries++;
     Configuration from = k == 0 ? start : space.sample(random);
-    for (std::size_t c = 0; c < from.size(); ++c) {
+    std::copy(start.begin() + static_cast<std::ptrdiff_t>(space.coordinates().size()), start.end(),
+              from.begin() + static_cast<std::ptrdiff_t>(space.coordinates().size()));
+    for (std::size_t c = 0; c < space.coordinates().size(); ++c) {
       const SpaceCoordinate& coordinate = space.coordinates()[c];
       const bool may_turn_on = !coordinate.has_limits && !coordinate.slides &&
                                !coordinate.turns_short && k % 2 == 0 && k > 0;
@@ -257,7 +261,10 @@ struct ReachSearch::Data {
 
   /// Keeps a place that does not reach the goal if it is the nearest one.
   void keep_nearest(ReachedPose place) {
-    const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
+    const bool has_rotation = goal.rotation_tolerance < std::numbers::pi;
+    const auto size = [&](const ReachedPose& p) {
+      return p.position_error + (has_rotation ? p.rotation_error : 0.0);
+    };
     if (!nearest || size(place) < size(*nearest)) {
       nearest = std::move(place);
     }
@@ -271,7 +278,8 @@ struct ReachSearch::Data {
 
 ReachSearch::ReachSearch(const ConfigurationSpace& space, const LinkPoseGoal& goal,
                          const Configuration& start, ReachOptions options) {
-  require_goal(!space.is_body(), "expected a robot with joints: a body is at a pose without them");
+  require_goal(!space.coordinates().empty(),
+               "expected a robot with joints: a body is at a pose without them");
   require_goal(
       goal.mover < space.mover_count() && goal.link < space.model(goal.mover).links().size(),
       "expected a link of the robot");

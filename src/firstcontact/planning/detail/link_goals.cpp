@@ -155,10 +155,14 @@ class LinkGoalSearch {
     if (nearest.empty()) {
       return pose.name + ": no time was left to look for configurations of the joints";
     }
-    return pose.name +
-           ": no configuration of the joints was found at which it is there; the nearest is " +
-           write_json(nearest.front().position_error) + " m and " +
-           write_json(nearest.front().rotation_error) + " rad off";
+    std::string text = pose.name +
+                       ": no configuration of the joints was found at which it is there; the "
+                       "nearest is " +
+                       write_json(nearest.front().position_error) + " m";
+    if (pose.goal.rotation_tolerance < std::numbers::pi) {
+      text += " and " + write_json(nearest.front().rotation_error) + " rad";
+    }
+    return text + " off";
   }
 
   ScenePlan& plan_;
