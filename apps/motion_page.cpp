@@ -149,9 +149,11 @@ PlayedPath played(const PlannedPath& path) {
 ///
 /// @param asks_gap  whether the page has the gap over time and the closest approach
 /// @param draw  called with the scene that is played; null where the page draws no path
+/// @param rates  of a retimed motion
 /// @returns whether the page was written; not where it was stopped
 bool write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool has_times,
-                       const std::function<PathLook(const LoadedScene&)>& draw) {
+                       const std::function<PathLook(const LoadedScene&)>& draw,
+                       const std::vector<RateLook>& rates = {}) {
   Question question;
   question.closest = asks_gap;
   question.gap_curve = asks_gap;
@@ -174,7 +176,7 @@ bool write_answer_page(const MotionPage& page, Scene scene, bool asks_gap, bool 
     look = draw(answer.loaded);
   }
   write_file(page.file, write_page(page.viewer, answer.loaded, result, {answer.curve, bound},
-                                   look ? &*look : nullptr));
+                                   {.path = look ? &*look : nullptr, .rates = rates}));
   return true;
 }
 
@@ -192,8 +194,27 @@ Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
   return scene;
 }
 
-void write_motion_page(const MotionPage& page, Scene scene) {
-  write_answer_page(page, std::move(scene), true, true, nullptr);
+void write_motion_page(const MotionPage& page, Scene scene, const std::vector<RateLook>& rates) {
+  write_answer_page(page, std::move(scene), true, true, nullptr, rates);
+}
+
+std::vector<RateLook> rate_looks(const RetimingPath& input, const std::vector<RateLimits>& limits) {
+  std::vector<RateLook> rates;
+  for (const std::size_t robot : input.robots) {
+    const std::string& name = input.scene.robots.at(robot).name;
+    const std::string begin = input.robots.size() == 1 ? "" : name + "/";
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+      const std::string& coordinate = input.path.joint_names.at(k);
+      if (coordinate.starts_with(begin)) {
+        rates.push_back({.robot = name,
+                         .coordinate = coordinate.substr(begin.size()),
+                         .velocity = limits[k].velocity,
+                         .acceleration = limits[k].acceleration,
+                         .jerk = limits[k].jerk});
+      }
+    }
+  }
+  return rates;
 }
 
 bool write_path_page(const MotionPage& page, const PlannedPath& path, std::vector<TreeLook> trees) {

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include <firstcontact/page/path_look.h>
+#include <firstcontact/page/rate_look.h>
 #include <firstcontact/planning/search_tree.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
 struct PlanResult;
 struct PlannedPath;
+struct RateLimits;
 struct RetimingPath;
 struct RetimingScene;
 struct ScenePlan;
@@ -38,7 +40,14 @@ struct MotionPage {
 /// Checks a scene once more and writes the page of the answer, with the gap over time.
 ///
 /// @param scene  scene_in_motion() of a retiming
-void write_motion_page(const MotionPage& page, Scene scene);
+/// @param rates  the limits that it keeps
+void write_motion_page(const MotionPage& page, Scene scene, const std::vector<RateLook>& rates);
+
+/// The limits of a retiming, by robot and coordinate.
+///
+/// @param limits  of the coordinates of its path
+[[nodiscard]] std::vector<RateLook> rate_looks(const RetimingPath& input,
+                                               const std::vector<RateLimits>& limits);
 
 /// Plays a path: checks the scene in which the mover runs along it, and writes the page.
 ///

@@ -312,7 +312,8 @@ ExitStatus retime_path(const Arguments& arguments) {
     if (!arguments.page.empty()) {
       const auto doing = [&](const std::string& what) { progress.doing("page: " + what); };
       write_motion_page({arguments.page, viewer, interrupt.token(), doing},
-                        scene_in_motion(input, scene.where, retimed.motion));
+                        scene_in_motion(input, scene.where, retimed.motion),
+                        rate_looks(input, limits));
     }
     say(report.proven(proof));
     flush_stdout();

@@ -144,4 +144,5 @@ set(supporting_headers
   firstcontact/record/run_step.h
   firstcontact/page/page_numbers.h
   firstcontact/page/path_look.h
+  firstcontact/page/rate_look.h
   firstcontact/verification/proof_verdict.h)

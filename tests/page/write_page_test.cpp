@@ -89,7 +89,8 @@ TEST(WritePage, HoldsAPathWithItsSearch) {
       .trees = {{.kind = "start", .places = 3, .edges = 2, .movers = {{.name = "a"}}}},
       .blocked = {{{"a", "b"}, 7}}};
   path.goal.push_back({.member = 0, .X_WM = {.position = {1, 2, 3}}});
-  const std::string page = write_page(kTemplate, scene_of_one_triangle(), "{}", {}, &path);
+  const std::string page =
+      write_page(kTemplate, scene_of_one_triangle(), "{}", {}, {.path = &path});
   // Relative to (9, 0, 0): (0, 0, 0), (0, 1, 0); (0, 1, 0), (-1, 1, 0) in f32. Until 2 and 4.
   EXPECT_NE(page.find(R"("path":{"verdict":"proven",)"
                       R"("edges":[{"clearance":0.25,"t":[0,0.5]},{"clearance":null,"t":[0.5,1]}],)"
@@ -100,6 +101,19 @@ TEST(WritePage, HoldsAPathWithItsSearch) {
                       R"([{"name":"a","origin":[0,0,0],"points":"","until":""}]}],)"
                       R"("blocked":[{"pair":["a","b"],"count":7}],)"
                       R"("goal":[{"body":0,"position":[1,2,3],"quaternion_wxyz":[1,0,0,0]}]})"),
+            std::string::npos)
+      << page;
+}
+
+TEST(WritePage, HoldsTheLimitsOfRates) {
+  const std::vector<RateLook> rates = {
+      {.robot = "arm", .coordinate = "elbow", .velocity = 2.0, .acceleration = 3.5},
+      {.robot = "arm", .coordinate = "slide", .velocity = 0.5, .acceleration = 1.0, .jerk = 20.0}};
+  const std::string page =
+      write_page(kTemplate, scene_of_one_triangle(), "{}", {}, {.rates = rates});
+  EXPECT_NE(page.find(R"("rates":[{"robot":"arm","coordinate":"elbow","velocity":2,)"
+                      R"("acceleration":3.5},{"robot":"arm","coordinate":"slide","velocity":0.5,)"
+                      R"("acceleration":1,"jerk":20}])"),
             std::string::npos)
       << page;
 }

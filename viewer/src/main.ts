@@ -19,7 +19,7 @@ import { bodiesPanel } from "./panels/bodies";
 import { contactsPanel } from "./panels/contacts";
 import { gapContent } from "./panels/gap_chart";
 import { helpDialog } from "./panels/help";
-import { jointContent } from "./panels/joint_chart";
+import { jointContent, type Shown } from "./panels/joint_chart";
 import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
 import { pathPanel } from "./panels/path";
@@ -164,10 +164,16 @@ function start(model: Model, result: number | null = null): void {
   const charts = model.run ? runCharts(model.run, model.devices) : [];
   const shownChart = new Signal<RunChart | null>(charts[0] ?? null);
   const content = new Signal<ChartContent | null>(null);
-  joint.subscribe((one) => {
+  const ofJoint = new Signal<Shown>("position");
+  const showJoint = (): void => {
     const close = (): void => void (joint.value = null);
-    content.value = one ? jointContent(one, model.duration, close) : gapContent(model);
-  });
+    const pick = (next: Shown): void => void (ofJoint.value = next);
+    content.value = joint.value
+      ? jointContent(joint.value, model.duration, { shown: ofJoint.value, close, pick })
+      : gapContent(model);
+  };
+  joint.subscribe(showJoint);
+  ofJoint.subscribe(showJoint);
   shownChart.subscribe((one) => {
     if (one) {
       content.value = one.content;

@@ -11,13 +11,13 @@ import type {
   Vector3,
 } from "./data/result";
 import type { FileReport, PairCounts } from "./data/reports";
-import type { GapLine, MeshData, PageData } from "./data/page_data";
-import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
+import type { GapLine, MeshData, PageData, RateData } from "./data/page_data";
+import type { GeometryData, RobotData, SegmentData, StretchData } from "./data/robot_data";
 import type { RunData, WayData } from "./data/run_data";
 import { devicesOf, type Device } from "./devices";
 import { combine, identity, isAtRest, motionOf, poseOf, totalAngle } from "./motion/motion";
 import type { Motion, Pose } from "./motion/motion";
-import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/robot";
+import { chainTo, coordinateAt, derivativeAt, linkMotions, restsAt, restsOn } from "./motion/robot";
 import { length, scale, unit, zero } from "./motion/vector";
 import { angleAlong, motionAlong } from "./motion/way";
 import { Path } from "./path";
@@ -58,6 +58,17 @@ export interface Body {
 export const isDrawn = ({ geometries, looks }: Body): boolean =>
   geometries.length > 0 || looks !== null;
 
+/// The rates of a coordinate, each the derivative of the one before.
+export const rateNames = ["velocity", "acceleration", "jerk"] as const;
+export type RateName = (typeof rateNames)[number];
+
+/// A rate of a coordinate over the step. [rad or m; per s, s² or s³]
+export interface Rate {
+  readonly name: RateName;
+  readonly limit: number | null; ///< Of its size.
+  readonly at: (t: number) => number;
+}
+
 /// One coordinate of a joint over the step.
 export interface Coordinate {
   readonly robot: number;
@@ -70,6 +81,7 @@ export interface Coordinate {
   readonly mimics: string | null;
   readonly breaks: readonly number[]; ///< Where its segments end.
   readonly at: (t: number) => number;
+  readonly rates: readonly Rate[];
   readonly violations: readonly Limit[];
   /// Which way it went, of a joint that turns without end.
   readonly turn: Turn | null;
@@ -188,10 +200,38 @@ function carried(body: Body, stretches: readonly StretchData[], bodies: readonly
   };
 }
 
+/// The velocity of a coordinate that moves, and those further rates that its polynomials have.
+///
+/// Between positions alone a coordinate jumps from one velocity to the next, so that its
+/// acceleration is not drawn. A jerk is where it has a limit.
+function ratesOf(
+  segments: readonly SegmentData[],
+  duration: number,
+  velocity: number | undefined,
+  given: RateData | undefined,
+): Rate[] {
+  const degree = Math.max(...segments.map(({ a }) => a.length - 1));
+  const limits = [given?.velocity ?? velocity, given?.acceleration, given?.jerk];
+  return rateNames
+    .map((name, k): Rate => ({
+      name,
+      limit: limits[k] || null,
+      at: (t) => derivativeAt(segments, t, k + 1) / duration ** (k + 1),
+    }))
+    .filter(
+      ({ name, limit }) =>
+        !restsAt(segments) &&
+        (name === "velocity" || degree > 1) &&
+        (name !== "jerk" || limit !== null),
+    );
+}
+
 /// Limits belong to the coordinate of a joint that has one.
 function coordinatesOf(
   robot: RobotData,
   index: number,
+  duration: number,
+  rates: readonly RateData[],
   { limits = [], turns: ways = [] }: Partial<Result>,
 ): Coordinate[] {
   return robot.joints.flatMap(({ name: joint, type, limits: own, mimics, coordinates = [] }) =>
@@ -209,6 +249,12 @@ function coordinatesOf(
         mimics: mimics ?? null,
         breaks: segments.map(({ until }) => until),
         at: (t) => coordinateAt(segments, t),
+        rates: ratesOf(
+          segments,
+          duration,
+          single ? own.velocity : undefined,
+          rates.find((rate) => rate.robot === robot.name && rate.coordinate === name),
+        ),
         violations: limits.filter((found) => found.robot === robot.name && found.joint === joint),
         // That of a planar joint has the name of the coordinate.
         turn: ways.find((way) => way.robot === robot.name && way.joint === name) ?? null,
@@ -290,7 +336,9 @@ export class Model {
     this.ties = run ? tiesOf(run, bodies) : [];
     this.devices = run ? devicesOf(run, bodies) : [];
     this.robots = robots.map(({ name }) => name);
-    this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
+    this.coordinates = robots.flatMap((robot, index) =>
+      coordinatesOf(robot, index, this.duration, page.rates, result ?? {}),
+    );
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
     // The result of a search without a path is about what rests at the start.
     this.pairs = this.path?.failed ? [] : (result?.pairs ?? []);

@@ -5,10 +5,11 @@ import { describe, expect, test } from "vitest";
 import { readPageData } from "../src/data/page_data";
 import type { QuaternionWxyz, Vector3 } from "../src/data/result";
 import { Model } from "../src/model";
-import { coordinateAt, restsAt } from "../src/motion/robot";
+import { coordinateAt, derivativeAt, restsAt } from "../src/motion/robot";
 import { distance, length, rotate } from "../src/motion/vector";
 import { gapContent } from "../src/panels/gap_chart";
-import { badTimes, jointContent, rangeOf, valueText } from "../src/panels/joint_chart";
+import { badTimes, jointContent, rangeOf, rateTimesOf, valueText } from "../src/panels/joint_chart";
+import { ratesText } from "../src/panels/joints";
 
 interface StoredPose {
   readonly body: string;
@@ -72,6 +73,13 @@ describe("a coordinate", () => {
     expect([0, 0.1, 0.25, 0.5, 0.75, 0.875, 1].map((t) => coordinateAt(segments, t))).toEqual([
       1, 1, 1, 2, 5, 2.5, 0,
     ]);
+  });
+
+  test("has the derivatives of its polynomials", () => {
+    // 1, then 1 + 4 s² over half of the time, then 5 - 5 s over a quarter.
+    expect([0.1, 0.5, 0.75, 0.9].map((t) => derivativeAt(segments, t, 1))).toEqual([0, 8, 16, -20]);
+    expect([0.1, 0.5, 0.9].map((t) => derivativeAt(segments, t, 2))).toEqual([0, 32, 0]);
+    expect(derivativeAt(segments, 0.5, 3)).toBe(0);
   });
 
   test("rests or does not", () => {
@@ -138,6 +146,83 @@ describe("the chart of a joint", () => {
   test("tells values in units, angles in degrees too", () => {
     expect(valueText(0.065, joint)).toBe("0.065\u00a0m");
     expect(valueText(-Math.PI / 2, { ...joint, unit: "rad" })).toBe("−1.571\u00a0rad · −90°");
+  });
+});
+
+describe("the rates of a joint", () => {
+  const page = JSON.parse(JSON.stringify(stored.page)) as {
+    view: { rates?: object[]; robots: { joints: { name: string; coordinates?: object[] }[] }[] };
+  };
+  const lift = page.view.robots[0]!.joints.find(({ name }) => name === "lift")!;
+  // 1 - 3 s² + 2 s³ down and up again: cubics at rest at both ends.
+  lift.coordinates = [
+    {
+      name: "lift",
+      segments: [
+        { until: 0.5, a: [1, 0, -3, 2] },
+        { until: 1, a: [0, 0, 3, -2] },
+      ],
+    },
+  ];
+  page.view.rates = [
+    { robot: "zoo", coordinate: "lift", velocity: 2.5, acceleration: 5, jerk: 60 },
+  ];
+  const moved = new Model(readPageData(JSON.stringify(page)));
+  const joint = moved.coordinates.find(({ name }) => name === "lift")!;
+
+  test("are those of its polynomials in seconds", () => {
+    expect(joint.rates.map(({ name, limit }) => [name, limit])).toEqual([
+      ["velocity", 2.5],
+      ["acceleration", 5],
+      ["jerk", 60],
+    ]);
+    const half = moved.duration / 2; // Of each cubic, in seconds.
+    expect(joint.rates[0]!.at(0.25)).toBeCloseTo(-1.5 / half, 12);
+    expect(joint.rates[1]!.at(0)).toBeCloseTo(-6 / half ** 2, 12);
+    expect(joint.rates[2]!.at(0.75)).toBeCloseTo(-12 / half ** 3, 12);
+  });
+
+  test("are drawn between their limits, with their jumps", () => {
+    const { title, unit, levels, range, lines } = jointContent(joint, moved.duration, {
+      shown: "acceleration",
+    });
+    expect([title, unit, levels]).toEqual(["lift, acceleration", "m/s²", [-5, 5]]);
+    expect(range[0]).toBeLessThan(-5);
+    expect(range[1]).toBeGreaterThan(5);
+    const t = rateTimesOf(joint);
+    expect(lines[0]!.t).toEqual(t);
+    const k = t.findIndex((moment) => moment > 0.5);
+    const half = moved.duration / 2;
+    expect(lines[0]!.value[k - 1]).toBeCloseTo(6 / half ** 2, 6);
+    expect(lines[0]!.value[k]).toBeCloseTo(6 / half ** 2, 6);
+    expect(t[k]! - t[k - 1]!).toBeLessThan(3e-9);
+  });
+
+  test("may be chosen, as far as they are known", () => {
+    const picked: string[] = [];
+    const { choices } = jointContent(joint, 2, { pick: (next) => picked.push(next) });
+    expect(choices!.map(({ name, isShown }) => [name, isShown])).toEqual([
+      ["position", true],
+      ["velocity", false],
+      ["acceleration", false],
+      ["jerk", false],
+    ]);
+    choices![2]!.pick();
+    expect(picked).toEqual(["acceleration"]);
+    // Between positions alone, velocities jump; without a limit a jerk is of no interest.
+    const rates = (name: string): readonly string[] =>
+      model.coordinates.find((one) => one.name === name)!.rates.map((rate) => rate.name);
+    expect(rates("rotor")).not.toContain("jerk");
+    expect(jointContent(joint, 2, { shown: "velocity" }).choices).toBeUndefined();
+  });
+
+  test("are told with their limits", () => {
+    const half = moved.duration / 2;
+    const three = (x: number): string => String(Number(x.toPrecision(3)));
+    const text = ratesText(joint);
+    expect(text).toContain(`velocity to ${three(1.5 / half)} of 2.5\u00a0m/s`);
+    expect(text).toContain(`acceleration to ${three(6 / half ** 2)} of 5\u00a0m/s²`);
+    expect(ratesText(model.coordinates.find(({ name }) => name === "rotor")!)).toBe("");
   });
 });
 

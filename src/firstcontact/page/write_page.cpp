@@ -53,6 +53,21 @@ JsonValue line_to_json(std::span<const Point> points) {
                               {"distance", {.value = std::move(distances)}}}};
 }
 
+JsonValue rates_to_json(std::span<const RateLook> rates) {
+  JsonArray all;
+  for (const RateLook& rate : rates) {
+    JsonObject object{{"robot", to_json(rate.robot)},
+                      {"coordinate", to_json(rate.coordinate)},
+                      {"velocity", to_json(rate.velocity)},
+                      {"acceleration", to_json(rate.acceleration)}};
+    if (rate.jerk) {
+      object.push_back({"jerk", to_json(*rate.jerk)});
+    }
+    all.push_back({.value = std::move(object)});
+  }
+  return {.value = std::move(all)};
+}
+
 /// Escapes `<`, so that no text of the data ends the script that holds it.
 ///
 /// In JSON this letter stands in strings only.
@@ -126,12 +141,15 @@ JsonObject summary_of(std::string_view result) {
 }  // namespace
 
 std::string write_page(std::string_view page_template, const LoadedScene& loaded,
-                       std::string_view result, const GapChart& gap, const PathLook* path) {
+                       std::string_view result, const GapChart& gap, const MotionLook& look) {
   JsonObject view = look_of(loaded);
   view.push_back({"gap", line_to_json(gap.samples)});
   view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
-  if (path != nullptr) {
-    view.push_back({"path", detail::path_look_json(*path)});
+  if (look.path != nullptr) {
+    view.push_back({"path", detail::path_look_json(*look.path)});
+  }
+  if (!look.rates.empty()) {
+    view.push_back({"rates", rates_to_json(look.rates)});
   }
   return fill(page_template, data_of({.name = "result", .json = result}, std::move(view)));
 }

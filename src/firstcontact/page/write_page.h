@@ -12,6 +12,7 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/page/path_look.h>
+#include <firstcontact/page/rate_look.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/sample_gap.h>
 
@@ -23,6 +24,12 @@ struct LoadedScene;
 struct GapChart {
   std::span<const GapSample> samples;
   std::span<const GapPoint> lower_bound;  ///< Proven; may be empty.
+};
+
+/// The parts of a page that are about a motion, beside its result.
+struct MotionLook {
+  const PathLook* path = nullptr;        ///< Of a planned path; null where the page plays none.
+  std::span<const RateLook> rates = {};  ///< Of a retimed motion.
 };
 
 /// Fills the viewer's page (share/firstcontact/viewer.html) with a result.
@@ -37,12 +44,12 @@ struct GapChart {
 /// @param loaded         the scene of the result
 /// @param result         JSON, as write_result makes it
 /// @param gap            for the chart
-/// @param path           what is drawn of a planned path; null where the page plays none
+/// @param look           what else is drawn of the motion
 /// @throws std::invalid_argument if the template has no place for a result
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
                                                       std::string_view result, const GapChart& gap,
-                                                      const PathLook* path = nullptr);
+                                                      const MotionLook& look = {});
 
 /// A record other than a result that the viewer can show, such as a run.
 struct PageRecord {

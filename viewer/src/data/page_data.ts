@@ -24,6 +24,15 @@ export interface GapLine {
   readonly distance: readonly number[];
 }
 
+/// The limits that the rates of a coordinate keep. [rad or m; per s, s² or s³]
+export interface RateData {
+  readonly robot: string;
+  readonly coordinate: string;
+  readonly velocity: number;
+  readonly acceleration: number;
+  readonly jerk?: number;
+}
+
 export interface PageData {
   /// One of these two.
   readonly result: Result | null;
@@ -46,6 +55,8 @@ export interface PageData {
   readonly gapBound: GapLine;
   /// Null where the page plays no planned path.
   readonly path: PathData | null;
+  /// Of a retimed motion.
+  readonly rates: readonly RateData[];
 }
 
 export interface StoredMesh {
@@ -68,6 +79,7 @@ export interface StoredView {
   readonly gap?: GapLine;
   readonly gap_bound?: GapLine;
   readonly path?: StoredPath;
+  readonly rates?: readonly RateData[];
 }
 
 export interface StoredPage {
@@ -122,5 +134,6 @@ export function pageOf({ result, run, view }: StoredPage, meshes: readonly MeshD
     gap: view.gap ?? noLine,
     gapBound: view.gap_bound ?? noLine,
     path: view.path ? pathOf(view.path) : null,
+    rates: view.rates ?? [],
   };
 }

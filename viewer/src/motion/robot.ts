@@ -26,6 +26,18 @@ export function coordinateAt(segments: readonly SegmentData[], t: number): numbe
   return piece.a.reduceRight((sum, a) => sum * s + a, 0);
 }
 
+/// A derivative of a joint's coordinate at t, per unit of t: the first, second or third one.
+export function derivativeAt(segments: readonly SegmentData[], t: number, order: number): number {
+  const { piece, begin } = pieceAt(segments, t);
+  const length = piece.until - begin;
+  const s = (t - begin) / length;
+  let a: readonly number[] = piece.a;
+  for (let k = 0; k < order; ++k) {
+    a = a.slice(1).map((coefficient, j) => ((j + 1) * coefficient) / length);
+  }
+  return a.reduceRight((sum, coefficient) => sum * s + coefficient, 0);
+}
+
 /// Whether a coordinate never changes.
 export const restsAt = (segments: readonly SegmentData[]): boolean =>
   segments.every(({ a }) => a[0] === segments[0]!.a[0] && a.slice(1).every((x) => x === 0));

@@ -8,7 +8,15 @@ import type { Turn } from "../data/result";
 import type { Coordinate, Model } from "../model";
 import type { Player } from "../player";
 import { chartButton } from "./chart_button";
-import { badTimes, rangeOf, timesOf, valueText, violationText } from "./joint_chart";
+import {
+  badTimes,
+  rangeOf,
+  rateTimesOf,
+  rateUnit,
+  timesOf,
+  valueText,
+  violationText,
+} from "./joint_chart";
 import { layer, sketch, stretch, upright } from "./sketch";
 
 /// Makes a small picture of the coordinate, and the function that moves its time line.
@@ -35,6 +43,19 @@ function limitsText({ lower, upper, unit }: Coordinate): string {
   return lower === null && upper === null ? "no limits" : `${end(lower)} … ${end(upper)} ${unit}`;
 }
 
+/// "velocity to 1.9 of 2.2 rad/s, acceleration to 3.7 of 3.8 rad/s²", as far as there are limits.
+export function ratesText(coordinate: Coordinate): string {
+  const t = rateTimesOf(coordinate);
+  return coordinate.rates
+    .filter(({ limit }) => limit !== null)
+    .map((rate) => {
+      const most = Math.max(...t.map((moment) => Math.abs(rate.at(moment))));
+      const share = Number(most.toPrecision(3));
+      return `${rate.name} to ${number(share)} of ${number(rate.limit!)}\u00a0${rateUnit(rate, coordinate)}`;
+    })
+    .join(", ");
+}
+
 /// "turned by 12.57 rad · 720°, as its numbers say: from 0 to 12.57 rad"
 function turnText({ turned, turning, from, to }: Turn): string {
   const degrees = number(Number(((turned * 180) / Math.PI).toFixed(1)));
@@ -49,6 +70,7 @@ function row(
   selected: Signal<Coordinate | null>,
 ): HTMLElement {
   const { name, violations, mimics, atRest, turn } = coordinate;
+  const hasRates = coordinate.rates.some((one) => one.name !== "velocity" && one.limit !== null);
   const button = chartButton(name, coordinate, selected, player, {
     textAt: (t) => valueText(coordinate.at(t), coordinate),
     pick: () => (selected.value = selected.value === coordinate ? null : coordinate),
@@ -59,6 +81,7 @@ function row(
     button,
     picture(coordinate, model, player),
     element("span.detail", {}, limitsText(coordinate), mimics ? ` · follows ${mimics}` : ""),
+    ...(hasRates ? [element("span.detail.rates", {}, ratesText(coordinate))] : []),
     ...(turn ? [element("span.detail.turn", {}, turnText(turn))] : []),
     ...violations.map((found) => element("span.joint-bad", {}, violationText(found, coordinate))),
   );

@@ -34,6 +34,13 @@ export interface ChartBand {
   readonly color: string;
 }
 
+/// Another content that the chart may show in its place.
+export interface ChartChoice {
+  readonly name: string;
+  readonly isShown: boolean;
+  readonly pick: () => void;
+}
+
 /// The content of a chart, in its unit.
 export interface ChartContent {
   readonly title: string;
@@ -45,6 +52,8 @@ export interface ChartContent {
   /// Drawn across all of the time.
   readonly levels: readonly number[];
   readonly bands: readonly ChartBand[];
+  /// Contents of which one is shown.
+  readonly choices?: readonly ChartChoice[];
   /// Returns to the content that was shown before.
   readonly close?: () => void;
 }
@@ -58,6 +67,16 @@ function clipTo(ctx: CanvasRenderingContext2D, { left, top, width, height }: uPl
   ctx.beginPath();
   ctx.rect(left - edge, top, width + 2 * edge, height);
   ctx.clip();
+}
+
+function choiceButton({ name, isShown, pick }: ChartChoice): HTMLElement {
+  const button = element(
+    "button.chart-choice",
+    { type: "button", "aria-pressed": String(isShown) },
+    name,
+  );
+  button.addEventListener("click", pick);
+  return button;
 }
 
 export class TimeChart {
@@ -156,6 +175,7 @@ export class TimeChart {
         element("span.chart-label", { style: `--line-color:var(--${color})` }, label!),
       );
     const title = element("span.chart-title", {}, `${content.title}${unit}`, ...labels);
+    title.append(...(content.choices ?? []).map(choiceButton));
     if (content.close) {
       const close = iconButton(icons.close, "Back to the gap", null, content.close);
       close.classList.add("chart-close");
