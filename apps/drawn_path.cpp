@@ -54,8 +54,9 @@ Movers movers_of(const ScenePlan& plan) {
   if (plan.plan.space.is_body()) {
     movers.body = std::exchange(movers.robots, {}).front();
   }
-  for (const SpaceCoordinate& coordinate : plan.plan.space.coordinates()) {
-    movers.joints.push_back(coordinate.name);
+  const ConfigurationSpace& space = plan.plan.space;
+  for (std::size_t k = 0; k < space.size() && !space.is_body(); ++k) {
+    movers.joints.push_back(space.number_name(k));
   }
   return movers;
 }

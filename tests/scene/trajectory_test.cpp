@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -125,19 +126,55 @@ TEST(JointMotions, RefuseWhatMakesNoMotion) {
             "expected a joint of the robot, got \"trun\"; did you mean \"turn\"?");
 }
 
-TEST(FindCoordinate, SaysSoWhereNoJointHasOne) {
-  const RobotModel robot(
+RobotModel robot_with(JointType type) {
+  return RobotModel(
       {.name = "floater",
        .links = {{"world", {}, {}}, {"tool", {}, {}}},
-       .joints = {
-           {.name = "free", .type = JointType::floating, .parent = "world", .child = "tool"}}});
+       .joints = {{.name = "free", .type = type, .parent = "world", .child = "tool"}}});
+}
+
+TEST(FindCoordinate, SaysSoWhereNoJointHasOne) {
   try {
-    (void)find_coordinate(robot, "free/x");
+    (void)find_coordinate(robot_with(JointType::ball), "free/x");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()),
               "expected a joint of the robot, got \"free/x\"; it has no joint with a coordinate");
   }
+}
+
+TEST(FindCoordinate, KnowsTheSevenOfAFloatingJoint) {
+  const RobotModel robot = robot_with(JointType::floating);
+  EXPECT_EQ(find_coordinate(robot, "free/trans_z"), (JointCoordinate{0, 2}));
+  EXPECT_EQ(find_coordinate(robot, "free/rot_w"), (JointCoordinate{0, 3}));
+  EXPECT_EQ(coordinate_name(robot, {0, 6}), "free/rot_z");
+  EXPECT_FALSE(known_coordinate(robot, "free"));
+  EXPECT_FALSE(known_coordinate(robot, "free/x"));
+  EXPECT_THROW((void)find_coordinate(robot, "free"), std::invalid_argument);
+}
+
+TEST(JointMotions, MoveAFloatingJointByTheShortestRotation) {
+  const RobotModel robot = robot_with(JointType::floating);
+  const double half = std::sqrt(0.5);
+  Trajectory trajectory{.joint_names = {"free/trans_x", "free/rot_w", "free/rot_z"},
+                        .points = {{.time = 0.0, .positions = {1.0, 1.0, 0.0}},
+                                   {.time = 2.0, .positions = {3.0, -half, -half}}}};
+  const JointPositions held = {{"free/trans_y", 5.0}};
+  const TrajectoryMotion made = joint_motions(robot, trajectory, held, 4.0);
+  const Pose middle = std::get<Motion>(made.joints.at("free")).pose(0.25);
+  EXPECT_LT((middle.position - Eigen::Vector3d(2, 5, 0)).norm(), 1e-15);
+  EXPECT_NEAR(2.0 * std::atan2(middle.rotation.z(), middle.rotation.w()), std::numbers::pi / 4.0,
+              1e-15);
+  const Pose after = std::get<Motion>(made.joints.at("free")).pose(0.9);
+  EXPECT_EQ(after.position, Eigen::Vector3d(3, 5, 0));
+  // Nothing names it: it rests where it is held.
+  const Trajectory rests{.joint_names = {}, .points = {TrajectoryPoint{}}};
+  const TrajectoryMotion still = joint_motions(robot, rests, held, 4.0);
+  EXPECT_EQ(std::get<Motion>(still.joints.at("free")).pose(0.5).position, Eigen::Vector3d(0, 5, 0));
+  for (TrajectoryPoint& point : trajectory.points) {
+    point.velocities = {0.0, 0.0, 0.0};
+  }
+  EXPECT_THROW((void)joint_motions(robot, trajectory, held, 4.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -130,34 +130,139 @@ SceneRobot moving_crane(test::Random& random, int derivatives, Turning turning) 
   return robot;
 }
 
+/// An arm of two hinges with a body that floats between them, on a base that turns.
+SceneRobot floating_arm(test::Random& random) {
+  RobotDescription arm{
+      .name = "arm",
+      .links = {{"ground", {}, {}}, {"post", {}, {}}, {"boat", {}, {}}, {"mast", {}, {}}},
+      .joints = {}};
+  const Eigen::Vector3d p = random.vector(0.0, 1.0);
+  arm.joints.push_back({.name = "swing",
+                        .type = JointType::continuous,
+                        .parent = "ground",
+                        .child = "post",
+                        .X_PJ = {p, random.rotation()}});
+  arm.joints.push_back({.name = "float",
+                        .type = JointType::floating,
+                        .parent = "post",
+                        .child = "boat",
+                        .X_PJ = {p, random.rotation()}});
+  arm.joints.push_back({.name = "turn",
+                        .type = JointType::continuous,
+                        .parent = "boat",
+                        .child = "mast",
+                        .X_PJ = {p, random.rotation()}});
+  SceneRobot robot{.name = "arm", .file = {}, .model = RobotModel(arm)};
+  robot.base =
+      ConstantVelocityMotion{random_pose(random), random.vector(0.0, 1.0), random.vector(0.0, 3.0)};
+  robot.trajectory.joint_names = {"swing", "turn"};
+  for (std::size_t k = 0; k < 7; ++k) {
+    robot.trajectory.joint_names.push_back(coordinate_name(robot.model, {1, k}));
+  }
+  for (const double time : {0.25, 1.0, 1.5, 3.0}) {
+    TrajectoryPoint point{.time = time};
+    point.positions = {random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0)};
+    for (const double number : positions_of_pose(random_pose(random))) {
+      point.positions.push_back(number);
+    }
+    robot.trajectory.points.push_back(point);
+  }
+  return robot;
+}
+
+/// The library's own poses, by arithmetic of its own, are those of the course.
+void expect_motion_of(const SceneRobot& robot, double duration, test::Random& random) {
+  const RobotMotion expected(
+      robot.model, joint_motions(robot.model, robot.trajectory, robot.state, duration).joints,
+      normalised_motion(robot.base, duration));
+  const detail::RobotCourse course(robot, duration);
+  EXPECT_EQ(course.breaks(),
+            std::vector<double>(expected.breaks().begin(), expected.breaks().end()));
+  for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+    const Vector3d p = random.vector(0.0, 1.0);
+    const IntervalTransform X_LP = detail::exact_transform({p, {1, 0, 0, 0}});
+    for (const auto& motion : course.motions(std::nullopt, link, X_LP, 0.0, 1.0)) {
+      for (const double part : {0.0, 0.4, 1.0}) {
+        const double t = motion->from() + part * (motion->to() - motion->from());
+        const double inside = 0.5 * (motion->from() + motion->to());
+        const LinkPose pose =
+            expected.path(link, inside).pose(t, DoubleDoubleVector3(0.0, 0.0, 0.0));
+        const BodyInstant now = motion->around(t, 0.0, Vector3d::Zero());
+        EXPECT_LT((pose.p_OL + pose.R_FL * p - now.pivot).norm(), 1e-12);
+        EXPECT_LT((pose.R_FL - now.R).norm(), 1e-12);
+        EXPECT_LT(now.pivot_error + now.turn_error, 1e-11);
+      }
+    }
+  }
+}
+
+TEST(RobotCourse, IsTheMotionOfAFloatingJoint) {
+  test::Random random(6);
+  for (int round = 0; round < 24; ++round) {
+    SceneRobot robot = floating_arm(random);
+    expect_motion_of(robot, 3.0, random);
+    // At rest where its state has it.
+    const Pose held = random_pose(random);
+    for (std::size_t k = 0; k < 7; ++k) {
+      robot.state[coordinate_name(robot.model, {1, k})] = positions_of_pose(held).at(k);
+    }
+    robot.trajectory = {
+        .joint_names = {"swing"},
+        .points = {{.time = 0.5, .positions = {1.0}}, {.time = 2.0, .positions = {-1.0}}}};
+    expect_motion_of(robot, 3.0, random);
+  }
+}
+
+TEST(RobotCourse, BoundsTheAccelerationOfAFloatingJoint) {
+  test::Random random(7);
+  for (int round = 0; round < 24; ++round) {
+    const SceneRobot robot = floating_arm(random);
+    const detail::RobotCourse course(robot, 3.0);
+    const IntervalTransform X_LP = detail::exact_transform({random.vector(0.0, 1.0), {1, 0, 0, 0}});
+    for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+      for (const auto& motion : course.motions(std::nullopt, link, X_LP, 0.0, 1.0)) {
+        expect_bounded(*motion, random);
+      }
+    }
+  }
+}
+
+// A bound of infinity would hold, too: a boat that drives at 3 m/s on a disc that turns at 2 rad/s,
+// one metre off its middle, has Coriolis' 12 m/s^2 and the disc's 4 m/s^2 per metre.
+TEST(RobotCourse, BoundsAFloatingJointTightly) {
+  SceneRobot robot{
+      .name = "disc",
+      .file = {},
+      .model = RobotModel({.name = "disc",
+                           .links = {{"base", {}, {}}, {"disc", {}, {}}, {"boat", {}, {}}},
+                           .joints = {{.name = "turn",
+                                       .type = JointType::revolute,
+                                       .parent = "base",
+                                       .child = "disc",
+                                       .axis = Vector3d::UnitZ()},
+                                      {.name = "drive",
+                                       .type = JointType::floating,
+                                       .parent = "disc",
+                                       .child = "boat"}}})};
+  robot.trajectory.joint_names = {"turn", "drive/trans_x"};
+  robot.trajectory.points = {{.time = 0.0, .positions = {0.0, -0.5}},
+                             {.time = 1.0, .positions = {2.0, 2.5}}};
+  const detail::RobotCourse course(robot, 1.0);
+  const IntervalTransform X_LP = detail::exact_transform({{0.0, 0.0, 0.0}, {1, 0, 0, 0}});
+  const auto motions = course.motions(std::nullopt, 2, X_LP, 0.0, 1.0);
+  ASSERT_EQ(motions.size(), 1u);
+  const BodyInstant now = motions[0]->around(0.5, 0.0, Vector3d::Zero());
+  EXPECT_NEAR(now.acceleration, 12.0 + 4.0, 1e-9);
+  EXPECT_NEAR(now.velocity.norm(), std::hypot(3.0, 2.0), 1e-12);
+}
+
 TEST(RobotCourse, IsTheMotionOfTheRobot) {
   test::Random random(3);
   constexpr double kDuration = 3.0;
   for (int round = 0; round < 24; ++round) {
     const SceneRobot robot =
         moving_crane(random, round % 3, round % 2 == 0 ? Turning::as_given : Turning::shortest);
-    const RobotMotion expected(
-        robot.model, joint_motions(robot.model, robot.trajectory, robot.state, kDuration).joints,
-        normalised_motion(robot.base, kDuration));
-    const detail::RobotCourse course(robot, kDuration);
-    EXPECT_EQ(course.breaks(),
-              std::vector<double>(expected.breaks().begin(), expected.breaks().end()));
-    for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
-      const Vector3d p = random.vector(0.0, 1.0);
-      const IntervalTransform X_LP = detail::exact_transform({p, {1, 0, 0, 0}});
-      for (const auto& motion : course.motions(std::nullopt, link, X_LP, 0.0, 1.0)) {
-        for (const double part : {0.0, 0.4, 1.0}) {
-          const double t = motion->from() + part * (motion->to() - motion->from());
-          const double inside = 0.5 * (motion->from() + motion->to());
-          const LinkPose pose =
-              expected.path(link, inside).pose(t, DoubleDoubleVector3(0.0, 0.0, 0.0));
-          const BodyInstant now = motion->around(t, 0.0, Vector3d::Zero());
-          EXPECT_LT((pose.p_OL + pose.R_FL * p - now.pivot).norm(), 1e-12);
-          EXPECT_LT((pose.R_FL - now.R).norm(), 1e-12);
-          EXPECT_LT(now.pivot_error + now.turn_error, 1e-11);
-        }
-      }
-    }
+    expect_motion_of(robot, kDuration, random);
   }
 }
 

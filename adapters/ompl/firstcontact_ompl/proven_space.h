@@ -38,8 +38,9 @@ class ChainedStateSpace : public ompl::base::WrapperStateSpace {
 ///
 /// A body has an SE3StateSpace: straight lines with slerp on both sides. Where its edges are screws
 /// it has a ScrewStateSpace. Joints have RealVectorStateSpaces, and SO2StateSpaces for those that
-/// go the short way round, in the order of the coordinates; several are joined by a
-/// CompoundStateSpace, whatever its weights. A planar joint may have an SE2StateSpace. A
+/// go the short way round, in the order of the coordinates. Behind them each floating joint has an
+/// SE3StateSpace. Several are joined by a CompoundStateSpace, whatever its weights. A planar joint
+/// may have an SE2StateSpace. A
 /// ChainedStateSpace is read as the one that it wraps. All other spaces, those that derive from
 /// these among them, are refused: their edges may be other curves.
 class OmplStates {
@@ -62,8 +63,10 @@ class OmplStates {
       if (!places.has_screws() && typeid(states) != typeid(ompl::base::SE3StateSpace)) {
         refuse(states, "a body has an SE3StateSpace");
       }
-      is_body_ = true;
-      has_slerp_ = !places.has_screws();
+      parts_.push_back({{}, kPose, Kind::pose});
+      if (!places.has_screws()) {
+        slerps_.push_back(3);
+      }
       return;
     }
     add(states, places);
@@ -76,14 +79,13 @@ class OmplStates {
   [[nodiscard]] Configuration read(const ompl::base::State* state) const {
     state = unwrapped(state);
     Configuration q;
-    if (is_body_) {
-      const auto* pose = state->as<ompl::base::SE3StateSpace::StateType>();
-      const auto& r = pose->rotation();
-      return {pose->getX(), pose->getY(), pose->getZ(), r.w, r.x, r.y, r.z};
-    }
     for (const Part& part : parts_) {
       const ompl::base::State* found = part.of(state);
-      if (part.turns) {
+      if (part.kind == Kind::pose) {
+        const auto* pose = found->as<ompl::base::SE3StateSpace::StateType>();
+        const auto& r = pose->rotation();
+        q.insert(q.end(), {pose->getX(), pose->getY(), pose->getZ(), r.w, r.x, r.y, r.z});
+      } else if (part.kind == Kind::angle) {
         q.push_back(found->as<ompl::base::SO2StateSpace::StateType>()->value);
       } else {
         const double* values = found->as<ompl::base::RealVectorStateSpace::StateType>()->values;
@@ -104,36 +106,33 @@ class OmplStates {
   /// Source: N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, 2002,
   /// inequality (3.5).
   [[nodiscard]] bool has_same_edge(const Configuration& from, const Configuration& to) const {
-    if (!has_slerp_) {
-      return true;
-    }
-    double dot = 0.0;
-    double sizes = 0.0;
-    for (std::size_t k = 3; k < 7; ++k) {
-      dot += from[k] * to[k];
-      sizes += std::abs(from[k] * to[k]);
-    }
-    return std::abs(dot) > 0x1p-48 * sizes;
+    return std::all_of(slerps_.begin(), slerps_.end(), [&](std::size_t first) {
+      double dot = 0.0;
+      double sizes = 0.0;
+      for (std::size_t k = first; k < first + 4; ++k) {
+        dot += from[k] * to[k];
+        sizes += std::abs(from[k] * to[k]);
+      }
+      return std::abs(dot) > 0x1p-48 * sizes;
+    });
   }
 
   /// Makes a state of a configuration. read() gives it back to the bit, but for angles of joints
   /// that go the short way round: those beyond [-pi, pi) lose whole turns, rounded.
   void write(const Configuration& q, ompl::base::State* state) const {
     state = const_cast<ompl::base::State*>(unwrapped(state));
-    if (is_body_) {
-      auto* pose = state->as<ompl::base::SE3StateSpace::StateType>();
-      pose->setXYZ(q[0], q[1], q[2]);
-      auto& r = pose->rotation();
-      r.w = q[3];
-      r.x = q[4];
-      r.y = q[5];
-      r.z = q[6];
-      return;
-    }
     std::size_t next = 0;
     for (const Part& part : parts_) {
       auto* found = const_cast<ompl::base::State*>(part.of(state));
-      if (part.turns) {
+      if (part.kind == Kind::pose) {
+        auto* pose = found->as<ompl::base::SE3StateSpace::StateType>();
+        pose->setXYZ(q[next], q[next + 1], q[next + 2]);
+        auto& r = pose->rotation();
+        r.w = q[next + 3];
+        r.x = q[next + 4];
+        r.y = q[next + 5];
+        r.z = q[next + 6];
+      } else if (part.kind == Kind::angle) {
         found->as<ompl::base::SO2StateSpace::StateType>()->value = within_a_turn(q[next]);
       } else {
         std::copy_n(&q[next], part.count,
@@ -144,10 +143,14 @@ class OmplStates {
   }
 
  private:
+  static constexpr std::size_t kPose = 7;  // Numbers of a pose.
+
+  enum class Kind { numbers, angle, pose };
+
   struct Part {
     std::vector<std::size_t> way;  // Through compound states.
     std::size_t count = 1;
-    bool turns = false;
+    Kind kind = Kind::numbers;
 
     [[nodiscard]] const ompl::base::State* of(const ompl::base::State* state) const {
       for (const std::size_t step : way) {
@@ -188,14 +191,29 @@ class OmplStates {
       }
       return;
     }
+    if (typeid(states) == typeid(ompl::base::SE3StateSpace)) {
+      const bool is_next = read_ >= places.coordinates().size() && read_ < places.size();
+      if (!is_next) {
+        refuse(states, "an SE3StateSpace is of a floating joint, behind all other joints");
+      }
+      parts_.push_back({way, kPose, Kind::pose});
+      slerps_.push_back(read_ + 3);
+      read_ += kPose;
+      return;
+    }
     const bool turns = typeid(states) == typeid(ompl::base::SO2StateSpace);
     if (!turns && typeid(states) != typeid(ompl::base::RealVectorStateSpace)) {
-      refuse(states, "joints have RealVectorStateSpaces, SO2StateSpaces and SE2StateSpaces");
+      refuse(states,
+             "joints have RealVectorStateSpaces, SO2StateSpaces, SE2StateSpaces and, where they "
+             "float, SE3StateSpaces");
     }
     const std::size_t count = turns ? 1 : states.getDimension();
     for (std::size_t k = 0; k < count; ++k) {
-      if (read_ + k >= places.size()) {
-        refuse(states, "it has more numbers than there are joints");
+      if (read_ + k >= places.coordinates().size()) {
+        refuse(states, places.poses().empty()
+                           ? "it has more numbers than there are joints"
+                           : "it has more numbers than there are joints with coordinates; a "
+                             "floating joint has an SE3StateSpace");
       }
       const SpaceCoordinate& coordinate = places.coordinates()[read_ + k];
       if (coordinate.turns_short != turns) {
@@ -204,23 +222,32 @@ class OmplStates {
                                   : "\" goes the short way round: give it an SO2StateSpace"));
       }
     }
-    parts_.push_back({way, count, turns});
+    parts_.push_back({way, count, turns ? Kind::angle : Kind::numbers});
     read_ += count;
   }
 
   std::vector<Part> parts_;
   std::size_t read_ = 0;
-  bool is_body_ = false;
-  bool has_slerp_ = false;
+  std::vector<std::size_t> slerps_;  // First numbers of the quaternions that slerp.
   bool is_wrapped_ = false;
 };
 
 namespace detail {
 
+/// The bounds of a pose's box.
+inline ompl::base::RealVectorBounds bounds_of(const SpacePose& pose) {
+  ompl::base::RealVectorBounds bounds(3);
+  for (unsigned int k = 0; k < 3; ++k) {
+    bounds.setLow(k, pose.low[k]);
+    bounds.setHigh(k, pose.high[k]);
+  }
+  return bounds;
+}
+
 /// Whether the only coordinates are those of a planar joint, in their order.
 inline bool is_planar(const ConfigurationSpace& places) {
   const auto coordinates = places.coordinates();
-  if (coordinates.size() != 3 || places.mover_count() != 1) {
+  if (coordinates.size() != 3 || places.size() != 3 || places.mover_count() != 1) {
     return false;
   }
   const std::size_t joint = coordinates[0].joint;
@@ -235,17 +262,13 @@ inline bool is_planar(const ConfigurationSpace& places) {
 }  // namespace detail
 
 /// The OMPL space of a space here, with its box or its limits as bounds: neighbouring joints with a
-/// long way share one RealVectorStateSpace, and a planar joint alone has an SE2StateSpace.
+/// long way share one RealVectorStateSpace, and a planar joint alone has an SE2StateSpace. Floating
+/// joints have SE3StateSpaces, which come last.
 inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& places) {
   if (places.is_body()) {
     auto space = places.has_screws() ? std::make_shared<ScrewStateSpace>()
                                      : std::make_shared<ompl::base::SE3StateSpace>();
-    ompl::base::RealVectorBounds bounds(3);
-    for (unsigned int k = 0; k < 3; ++k) {
-      bounds.setLow(k, places.low()[k]);
-      bounds.setHigh(k, places.high()[k]);
-    }
-    space->setBounds(bounds);
+    space->setBounds(detail::bounds_of(places.poses().front()));
     return space;
   }
   const auto coordinates = places.coordinates();
@@ -271,6 +294,12 @@ inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& place
       several->addDimension(coordinates[k].name, coordinates[k].lower, coordinates[k].upper);
     }
     compound->addSubspace(several, 1.0);
+  }
+  for (const SpacePose& pose : places.poses()) {
+    auto floats = std::make_shared<ompl::base::SE3StateSpace>();
+    floats->setName(pose.name);
+    floats->setBounds(detail::bounds_of(pose));
+    compound->addSubspace(floats, 1.0);
   }
   if (compound->getSubspaceCount() == 1) {
     return compound->getSubspace(0);  // Some planners know no compounds.

@@ -89,11 +89,13 @@ std::string problem_of(const ConfigurationSpace& space, const Configuration& pla
   if (!std::ranges::all_of(place, [](double number) { return std::abs(number) <= 1e8; })) {
     return space.defect(place).value_or("expected finite numbers");
   }
-  if (!space.is_body()) {
+  if (space.poses().empty()) {
     return "";
   }
   try {
-    (void)space.motion(place, place);
+    for (std::size_t mover = 0; mover < space.mover_count(); ++mover) {
+      (void)space.motion(place, place, mover);
+    }
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -195,9 +197,10 @@ class HeldEdges {
 };
 
 std::vector<std::string> joint_names_of(const HeldEdges& edges) {
+  const ConfigurationSpace& space = edges.plan().plan.space;
   std::vector<std::string> names;
-  for (const SpaceCoordinate& coordinate : edges.plan().plan.space.coordinates()) {
-    names.push_back(coordinate.name);
+  for (std::size_t k = 0; k < space.size() && !space.is_body(); ++k) {
+    names.push_back(space.number_name(k));
   }
   return names;
 }

@@ -11,8 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/edges/detail/robot_sizes.h>
-#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/edges/detail/coordinate_limits.h>
+#include <firstcontact/edges/detail/pose_numbers.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/scene/trajectory.h>
@@ -26,85 +26,12 @@ constexpr std::array<double, 2> kEdgeTimes = {0.0, 1.0};
 
 [[noreturn]] void refuse_space(const std::string& what) { throw std::invalid_argument(what); }
 
-Pose pose_of(const Configuration& q) {
-  return {{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])};
-}
-
-/// [rad]  The angle of the shortest rotation between two quaternions of any length.
-double angle_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
-  const Eigen::Quaterniond way = from.conjugate() * to;
-  return 2.0 * std::atan2(way.vec().norm(), std::abs(way.w()));
-}
-
 double way_of(const SpaceCoordinate& coordinate, double from, double to) {
   return coordinate.turns_short ? shortest_way(from, to) : to - from;
 }
 
 Turning turning_of(const SpaceCoordinate& coordinate) {
   return coordinate.turns_short ? Turning::shortest : Turning::as_given;
-}
-
-/// Takes the limits of a coordinate, or its sampled range where it has none.
-void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
-  coordinate.slides = detail::is_slide(joint.type, coordinate.index);
-  const bool has_own = joint.type == JointType::revolute || joint.type == JointType::prismatic ||
-                       joint.type == JointType::screw;
-  if (has_own && joint.limits.lower && joint.limits.upper) {
-    coordinate.lower = *joint.limits.lower;
-    coordinate.upper = *joint.limits.upper;
-    return;
-  }
-  coordinate.has_limits = false;
-  if (!coordinate.slides) {
-    coordinate.lower = -std::numbers::pi;
-    coordinate.upper = std::numbers::pi;
-  }
-}
-
-/// Narrows the limits of a coordinate to those that the joints which mimic it have.
-///
-/// @param multiplier, offset  a joint that follows the coordinate is at multiplier q + offset
-void narrow_by_mimics(const RobotModel& model, std::size_t joint, double multiplier, double offset,
-                      SpaceCoordinate& coordinate) {
-  for (std::size_t other = 0; other < model.joints().size(); ++other) {
-    const Joint& follower = model.joints()[other];
-    if (!follower.mimic || follower.mimic->joint != model.joints()[joint].name) {
-      continue;
-    }
-    const double factor = follower.mimic->multiplier * multiplier;
-    const double shift = follower.mimic->multiplier * offset + follower.mimic->offset;
-    SpaceCoordinate own;
-    take_limits(follower, own);
-    if (own.has_limits && factor != 0.0) {
-      const auto [low, high] =
-          std::minmax({(own.lower - shift) / factor, (own.upper - shift) / factor});
-      coordinate.lower = coordinate.has_limits ? std::max(coordinate.lower, low) : low;
-      coordinate.upper = coordinate.has_limits ? std::min(coordinate.upper, high) : high;
-      coordinate.has_limits = true;
-      coordinate.turns_short = false;
-    }
-    narrow_by_mimics(model, other, factor, shift, coordinate);
-  }
-}
-
-/// [m]  Bounds the distance of any point of the robot from the root, without the displacements of
-/// sliding joints.
-double length_of(const RobotModel& model) {
-  double length = 0.0;
-  for (const Joint& joint : model.joints()) {
-    length += joint.X_PJ.position.norm();
-  }
-  double part = 0.0;
-  for (const Link& link : model.links()) {
-    for (const LinkGeometry& geometry : link.collision) {
-      if (geometry.shape) {
-        const Hierarchy& hierarchy = geometry.shape->hierarchy();
-        part = std::max(part, geometry.X_LG.position.norm() + hierarchy.centre.norm() +
-                                  hierarchy.radius + geometry.shape->radius());
-      }
-    }
-  }
-  return length + part;
 }
 
 /// Gives a coordinate of a robot its path. Other coordinates of its joint keep those of the rest,
@@ -131,7 +58,7 @@ Configuration configuration_of(const Pose& pose) {
 }
 
 ConfigurationSpace::ConfigurationSpace(RobotModel model) {
-  const double reach = length_of(model);
+  const double reach = detail::length_of(model);
   movers_.push_back({std::move(model), reach, {}});
 }
 
@@ -145,29 +72,49 @@ ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
     refuse_space("expected at least one joint that moves, got none");
   }
   for (const std::string& name : names) {
-    const JointCoordinate found = find_coordinate(of, name);
-    const Joint& joint = of.joints()[found.joint];
-    const std::string quoted = detail::in_quotes(name);
-    if (joint.mimic) {
-      refuse_space("joint " + quoted + " mimics " + detail::in_quotes(joint.mimic->joint) +
-                   ": it follows that one and is not planned by itself");
+    const std::optional<std::size_t> joint = of.find_joint(name);
+    if (joint && of.joints()[*joint].type == JointType::floating) {
+      space.add_pose(*joint);
+    } else {
+      space.add_coordinate(name);
     }
-    SpaceCoordinate coordinate{.name = coordinate_name(of, found),
-                               .turns_short = takes_short_way(of, found),
-                               .joint = found.joint,
-                               .index = found.index};
-    const auto is_same = [&](const SpaceCoordinate& other) {
-      return other.joint == found.joint && other.index == found.index;
-    };
-    if (std::any_of(space.coordinates_.begin(), space.coordinates_.end(), is_same)) {
-      refuse_space("joint " + quoted + " is named twice");
-    }
-    take_limits(joint, coordinate);
-    narrow_by_mimics(of, found.joint, 1.0, 0.0, coordinate);
-    space.coordinates_.push_back(std::move(coordinate));
   }
   space.movers_.front().rest.emplace(of, std::move(held), std::move(base));
   return space;
+}
+
+void ConfigurationSpace::add_coordinate(const std::string& name) {
+  const RobotModel& of = model();
+  const JointCoordinate found = find_coordinate(of, name);
+  const Joint& joint = of.joints()[found.joint];
+  const std::string quoted = detail::in_quotes(name);
+  if (joint.mimic) {
+    refuse_space("joint " + quoted + " mimics " + detail::in_quotes(joint.mimic->joint) +
+                 ": it follows that one and is not planned by itself");
+  }
+  if (joint.type == JointType::floating) {
+    refuse_space("joint " + quoted + ": a floating joint is planned as a whole, by its name " +
+                 detail::in_quotes(joint.name));
+  }
+  SpaceCoordinate coordinate{.name = coordinate_name(of, found),
+                             .turns_short = takes_short_way(of, found),
+                             .joint = found.joint,
+                             .index = found.index};
+  if (std::ranges::any_of(coordinates_, [&](const SpaceCoordinate& other) {
+        return other.joint == found.joint && other.index == found.index;
+      })) {
+    refuse_space("joint " + quoted + " is named twice");
+  }
+  detail::take_limits(of, coordinate);
+  coordinates_.push_back(std::move(coordinate));
+}
+
+void ConfigurationSpace::add_pose(std::size_t joint) {
+  const std::string& name = model().joints()[joint].name;
+  if (std::ranges::any_of(poses_, [&](const SpacePose& pose) { return pose.joint == joint; })) {
+    refuse_space("joint " + detail::in_quotes(name) + " is named twice");
+  }
+  poses_.push_back({.name = name, .joint = joint, .has_limits = {false, false, false}});
 }
 
 ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Shape& shape,
@@ -181,10 +128,8 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
   description.links[0].collision.push_back(
       {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
   ConfigurationSpace space{RobotModel(std::move(description))};
-  space.is_body_ = true;
   space.edges_ = edges;
-  space.low_ = low;
-  space.high_ = high;
+  space.poses_.push_back({.name = name, .low = low, .high = high});
   return space;
 }
 
@@ -213,12 +158,13 @@ ConfigurationSpace ConfigurationSpace::of_body_in_plane(const std::string& name,
 ConfigurationSpace ConfigurationSpace::joined(std::span<const std::string> names,
                                               std::span<const ConfigurationSpace> spaces) {
   if (names.empty() || names.size() != spaces.size()) {
-    refuse_space("expected at least one robot that moves, and a name for each");
+    refuse_space("expected at least one mover, and a name for each");
   }
   ConfigurationSpace joined;
   for (std::size_t k = 0; k < spaces.size(); ++k) {
-    if (spaces[k].is_body() || spaces[k].mover_count() != 1) {
-      refuse_space(detail::in_quotes(names[k]) + ": expected the joints of one robot");
+    if (spaces[k].mover_count() != 1 || spaces[k].has_screws()) {
+      refuse_space(detail::in_quotes(names[k]) +
+                   ": expected the joints of one robot, or a body with straight edges");
     }
     joined.movers_.push_back(spaces[k].movers_.front());
     for (SpaceCoordinate coordinate : spaces[k].coordinates_) {
@@ -226,16 +172,23 @@ ConfigurationSpace ConfigurationSpace::joined(std::span<const std::string> names
       coordinate.mover = k;
       joined.coordinates_.push_back(std::move(coordinate));
     }
+    for (SpacePose pose : spaces[k].poses_) {
+      pose.name = pose.joint ? names[k] + "/" + pose.name : names[k];
+      pose.mover = k;
+      joined.poses_.push_back(std::move(pose));
+    }
   }
   return joined;
 }
 
-std::optional<std::string> ConfigurationSpace::defect_of_body(const Configuration& q) const {
-  const double size = Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm();
-  if (!(std::abs(size - 1.0) <= 1e-6)) {
-    return "expected a quaternion of length 1, got one of length " + detail::write_json(size);
+std::string ConfigurationSpace::number_name(std::size_t number) const {
+  if (number < coordinates_.size()) {
+    return coordinates_[number].name;
   }
-  return std::nullopt;
+  const std::size_t behind = number - coordinates_.size();
+  const SpacePose& pose = poses_[behind / detail::kPoseNumbers];
+  const Joint floating{.name = pose.name, .type = JointType::floating};
+  return coordinate_name(floating, behind % detail::kPoseNumbers);
 }
 
 std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) const {
@@ -245,14 +198,16 @@ std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) co
   for (std::size_t k = 0; k < q.size(); ++k) {
     if (!(std::abs(q[k]) <= 1e8)) {
       const std::string what =
-          is_body_ ? "its pose" : "joint " + detail::in_quotes(coordinates_[k].name);
+          is_body() ? "its pose" : "joint " + detail::in_quotes(number_name(k));
       return what + ": expected a finite number of at most 1e8";
     }
   }
-  if (is_body_) {
-    return defect_of_body(q);
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (const auto defect = detail::defect_of_pose(q, begin_of_pose(k))) {
+      return is_body() ? *defect : detail::in_quotes(poses_[k].name) + ": " + *defect;
+    }
   }
-  for (std::size_t k = 0; k < q.size(); ++k) {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
     if (coordinate.has_limits && !(q[k] >= coordinate.lower - kLimitTolerance &&
                                    q[k] <= coordinate.upper + kLimitTolerance)) {
@@ -264,40 +219,65 @@ std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) co
   return std::nullopt;
 }
 
-bool ConfigurationSpace::is_in_box(const Configuration& q) const { return !is_body_ || holds(q); }
-
-bool ConfigurationSpace::holds(const Configuration& q) const {
-  if (is_body_) {
-    const Eigen::Vector3d place(q[0], q[1], q[2]);
-    return (place.array() >= low_.array()).all() && (place.array() <= high_.array()).all();
-  }
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    if (coordinates_[k].has_limits &&
-        !(q[k] >= coordinates_[k].lower && q[k] <= coordinates_[k].upper)) {
+bool ConfigurationSpace::is_in_box(const Configuration& q) const {
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (!detail::is_in_box(poses_[k], q, begin_of_pose(k))) {
       return false;
     }
   }
   return true;
 }
 
+bool ConfigurationSpace::holds(const Configuration& q) const {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    if (coordinates_[k].has_limits &&
+        !(q[k] >= coordinates_[k].lower && q[k] <= coordinates_[k].upper)) {
+      return false;
+    }
+  }
+  return is_in_box(q);
+}
+
+double ConfigurationSpace::pose_distance(std::size_t pose, const Configuration& from,
+                                         const Configuration& to) const {
+  const Pose a = detail::pose_at(from, begin_of_pose(pose));
+  const Pose b = detail::pose_at(to, begin_of_pose(pose));
+  return poses_[pose].joint ? std::hypot((b.position - a.position).norm(),
+                                         detail::angle_between(a.rotation, b.rotation))
+                            : detail::body_distance(a, b, movers_[poses_[pose].mover].reach);
+}
+
 double ConfigurationSpace::distance(const Configuration& from, const Configuration& to) const {
-  if (is_body_) {
-    const Pose a = pose_of(from);
-    const Pose b = pose_of(to);
-    return (b.position - a.position).norm() +
-           movers_.front().reach * angle_between(a.rotation, b.rotation);
+  if (is_body()) {
+    return pose_distance(0, from, to);
   }
   double square = 0.0;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const double way = way_of(coordinates_[k], from[k], to[k]);
     square += way * way;
   }
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const double way = pose_distance(k, from, to);
+    square += way * way;
+  }
   return std::sqrt(square);
 }
 
-Motion ConfigurationSpace::body_motion(const Configuration& from, const Configuration& to) const {
-  return has_screws() ? Motion::screw(pose_of(from), pose_of(to))
-                      : Motion::constant_velocity(pose_of(from), pose_of(to));
+Motion ConfigurationSpace::pose_motion(std::size_t pose, const Configuration& from,
+                                       const Configuration& to) const {
+  const Pose a = detail::pose_at(from, begin_of_pose(pose));
+  const Pose b = detail::pose_at(to, begin_of_pose(pose));
+  return has_screws() ? Motion::screw(a, b) : Motion::constant_velocity(a, b);
+}
+
+Motion ConfigurationSpace::pose_motion(std::size_t pose, std::span<const Configuration> places,
+                                       std::span<const double> times) const {
+  std::vector<Pose> poses;
+  for (const Configuration& place : places) {
+    poses.push_back(detail::pose_at(place, begin_of_pose(pose)));
+  }
+  return Motion::waypoints(times, poses,
+                           has_screws() ? Between::screw : Between::constant_velocity);
 }
 
 Configuration ConfigurationSpace::interpolate(const Configuration& from, const Configuration& to,
@@ -308,11 +288,14 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
   if (share >= 1.0) {
     return to;
   }
-  if (is_body_) {
-    return configuration_of(body_motion(from, to).pose(share));
+  Configuration q = from;
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const std::size_t first = begin_of_pose(k);
+    if (is_body() || !detail::is_same_pose(from, to, first)) {
+      detail::set_pose(pose_motion(k, from, to).pose(share), first, q);
+    }
   }
-  Configuration q(from.size());
-  for (std::size_t k = 0; k < q.size(); ++k) {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     q[k] = from[k] + share * way_of(coordinates_[k], from[k], to[k]);
     if (!coordinates_[k].turns_short) {
       const auto [low, high] = std::minmax(from[k], to[k]);
@@ -322,44 +305,15 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
   return q;
 }
 
-double ConfigurationSpace::rounding_bound(const Configuration& from, const Configuration& to,
-                                          double carried) const {
-  if (has_screws()) {
-    return std::numeric_limits<double>::infinity();
-  }
-  constexpr double kUlps = 0x1p-48;  // More than the rounding errors of a place and of its edge.
-  std::vector<double> sizes(from.size());
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    sizes[k] = std::abs(from[k]) + std::abs(to[k]);
-  }
-  if (is_body_) {
-    constexpr double kNearHalfTurn = 1e-9;  // [rad]  A rounded place may be beyond it.
-    if (angle_between(pose_of(from).rotation, pose_of(to).rotation) >
-        std::numbers::pi - kNearHalfTurn) {
-      return std::numeric_limits<double>::infinity();
-    }
-    // A body turns about its own origin. Rounded quaternions move a point by at most its reach
-    // times their error, wherever the body is. Rounded positions move all points alike.
-    const double places = sizes[0] + sizes[1] + sizes[2];
-    const double turns = sizes[3] + sizes[4] + sizes[5] + sizes[6];
-    return kUlps * (places + turns * movers_.front().reach);
-  }
-  double bound = 0.0;
-  for (std::size_t k = 0; k < movers_.size(); ++k) {
-    const Mover& mover = movers_[k];
-    const detail::RobotSizes robot = detail::robot_sizes(*mover.rest, k, coordinates_, sizes);
-    // A radian moves a point by at most the length of its robot, with sliding joints drawn out. A
-    // slide moves all points alike.
-    const double lever = mover.reach + carried + robot.slides;
-    bound += robot.planned_slides + robot.planned_turns * lever;  // Two movers may be a pair.
-  }
-  return kUlps * bound;
+std::size_t ConfigurationSpace::pose_of_mover(std::size_t mover) const {
+  const auto found = std::ranges::find(poses_, mover, &SpacePose::mover);
+  return static_cast<std::size_t>(found - poses_.begin());
 }
 
 RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to,
                                        std::size_t mover) const {
-  if (is_body_) {
-    return {model(), {}, body_motion(from, to)};
+  if (is_body(mover)) {
+    return {model(mover), {}, pose_motion(pose_of_mover(mover), from, to)};
   }
   const std::array<Configuration, 2> ends = {from, to};
   return motion(ends, kEdgeTimes, mover);
@@ -367,19 +321,12 @@ RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configur
 
 RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
                                        std::span<const double> times, std::size_t mover) const {
-  if (is_body_) {
-    std::vector<Pose> poses;
-    for (const Configuration& place : places) {
-      poses.push_back(pose_of(place));
-    }
-    return {model(),
-            {},
-            Motion::waypoints(times, poses,
-                              has_screws() ? Between::screw : Between::constant_velocity)};
+  if (is_body(mover)) {
+    return {model(mover), {}, pose_motion(pose_of_mover(mover), places, times)};
   }
   const RobotMotion& rest = *movers_[mover].rest;
   std::vector<std::pair<std::size_t, JointMotion>> joints;
-  joints.reserve(coordinates_.size());
+  joints.reserve(coordinates_.size() + poses_.size());
   std::vector<double> positions(places.size());
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
@@ -391,47 +338,41 @@ RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
                joints);
     }
   }
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (poses_[k].mover == mover) {
+      joints.emplace_back(*poses_[k].joint, pose_motion(k, places, times));
+    }
+  }
   return rest.with(std::move(joints));
 }
 
 double ConfigurationSpace::travel_time(const Configuration& from, const Configuration& to,
                                        std::span<const double> speeds) const {
-  if (is_body_) {
-    const Pose a = pose_of(from);
-    const Pose b = pose_of(to);
-    return std::max((b.position - a.position).norm() / speeds[0],
-                    angle_between(a.rotation, b.rotation) / speeds[1]);
-  }
   double time = 0.0;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     time = std::max(time, std::abs(way_of(coordinates_[k], from[k], to[k])) / speeds[k]);
+  }
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const Pose a = detail::pose_at(from, begin_of_pose(k));
+    const Pose b = detail::pose_at(to, begin_of_pose(k));
+    const double* of_pose = &speeds[coordinates_.size() + 2 * k];
+    time = std::max({time, (b.position - a.position).norm() / of_pose[0],
+                     detail::angle_between(a.rotation, b.rotation) / of_pose[1]});
   }
   return time;
 }
 
 Configuration ConfigurationSpace::sample(RandomNumbers& random) const {
-  if (!is_body_) {
-    Configuration q;
-    q.reserve(coordinates_.size());
-    for (const SpaceCoordinate& coordinate : coordinates_) {
-      q.push_back(random.uniform(coordinate.lower, coordinate.upper));
-    }
-    return q;
+  Configuration q;
+  q.reserve(size());
+  for (const SpaceCoordinate& coordinate : coordinates_) {
+    q.push_back(random.uniform(coordinate.lower, coordinate.upper));
   }
-  Pose pose;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    pose.position[k] = random.uniform(low_[k], high_[k]);
+  for (const SpacePose& pose : poses_) {
+    const Configuration numbers = configuration_of(detail::sample_pose(pose, random));
+    q.insert(q.end(), numbers.begin(), numbers.end());
   }
-  // K. Shoemake, "Uniform random rotations", Graphics Gems III (1992).
-  const double u = random.uniform();
-  const double a = random.uniform(0.0, 2.0 * std::numbers::pi);
-  const double b = random.uniform(0.0, 2.0 * std::numbers::pi);
-  const double r = std::sqrt(1.0 - u);
-  const double s = std::sqrt(u);
-  pose.rotation =
-      Eigen::Quaterniond(s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b))
-          .normalized();
-  return configuration_of(pose);
+  return q;
 }
 
 void ConfigurationSpace::include(const Configuration& q) {
@@ -444,15 +385,37 @@ void ConfigurationSpace::include(const Configuration& q) {
   }
 }
 
+/// Sets the box of a floating joint along one axis; returns whether the name is of one.
+bool ConfigurationSpace::set_box(const std::string& name, double lower, double upper) {
+  for (std::size_t k = 0; k < detail::kPoseNumbers * poses_.size(); ++k) {
+    SpacePose& pose = poses_[k / detail::kPoseNumbers];
+    const std::size_t index = k % detail::kPoseNumbers;
+    if (!pose.joint || number_name(coordinates_.size() + k) != name) {
+      continue;
+    }
+    if (index >= pose.has_limits.size()) {
+      refuse_space("limits of " + detail::in_quotes(name) + ": a quaternion has none");
+    }
+    pose.low[static_cast<Eigen::Index>(index)] = lower;
+    pose.high[static_cast<Eigen::Index>(index)] = upper;
+    pose.has_limits.at(index) = true;
+    return true;
+  }
+  return false;
+}
+
 void ConfigurationSpace::set_limits(const std::string& name, double lower, double upper) {
   const auto found = std::find_if(coordinates_.begin(), coordinates_.end(),
                                   [&](const SpaceCoordinate& c) { return c.name == name; });
-  if (found == coordinates_.end()) {
-    refuse_space("limits of joint " + detail::in_quotes(name) + ", which is not planned");
-  }
   if (!(lower <= upper && std::isfinite(lower) && std::isfinite(upper))) {
     refuse_space("limits of joint " + detail::in_quotes(name) +
                  ": expected two finite numbers, the lower one first");
+  }
+  if (found == coordinates_.end()) {
+    if (set_box(name, lower, upper)) {
+      return;
+    }
+    refuse_space("limits of joint " + detail::in_quotes(name) + ", which is not planned");
   }
   if (found->has_limits && (lower > found->upper || upper < found->lower)) {
     refuse_space("limits of joint " + detail::in_quotes(name) +
@@ -469,6 +432,13 @@ std::optional<std::string> ConfigurationSpace::unbounded() const {
   for (const SpaceCoordinate& coordinate : coordinates_) {
     if (coordinate.slides && !coordinate.has_limits) {
       return coordinate.name;
+    }
+  }
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const auto open = std::ranges::find(poses_[k].has_limits, false);
+    if (open != poses_[k].has_limits.end()) {
+      return number_name(begin_of_pose(k) +
+                         static_cast<std::size_t>(open - poses_[k].has_limits.begin()));
     }
   }
   return std::nullopt;

@@ -53,15 +53,16 @@ struct ReachOptions {
 /// Damped least squares (C. Wampler, "Manipulator inverse kinematic solutions based on vector
 /// formulations and damped least-squares methods", IEEE Transactions on Systems, Man, and
 /// Cybernetics 16 (1986)), from the start and from random places. Coordinates that would leave
-/// their limits are held there while the others go on. Where the pose itself is not reached, a
-/// second search heads for its tolerances alone. The result is the same for a seed. An empty result
-/// proves nothing: there may be a place.
+/// their limits are held there while the others go on. Poses of floating joints and bodies stay.
+/// Where the pose itself is not reached, a second search heads for its tolerances alone. The result
+/// is the same for a seed. An empty result proves nothing: there may be a place.
 ///
 /// @param start  a configuration of the space
 /// @returns  places with both errors within the tolerances. No two are closer than 1e-3 by the
 /// space's length. Where no place reaches the pose, accepted or not: the nearest one, whose errors
 /// are larger. Empty where none was accepted, and where the time was over before the first.
-/// @throws std::invalid_argument for the space of a body, an unknown link, a start of another size,
+/// @throws std::invalid_argument for a space without coordinates, an unknown link, a start of
+/// another size,
 ///         a pose that is not finite or has a zero quaternion, or a tolerance that is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(
     const ConfigurationSpace& space, const LinkPoseGoal& goal, const Configuration& start,

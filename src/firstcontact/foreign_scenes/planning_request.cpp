@@ -329,7 +329,8 @@ Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
       continue;  // It follows another joint.
     }
     const auto found = start.find(name);
-    const double from = found != start.end() ? found->second : default_position(joint);
+    const double from =
+        found != start.end() ? found->second : default_position(joint, coordinate.index);
     trajectory.joint_names.push_back(name);
     trajectory.points[0].positions.push_back(from);
     trajectory.points[1].positions.push_back(position);

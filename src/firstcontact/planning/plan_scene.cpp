@@ -207,11 +207,11 @@ bool freeze_held(const LoadedScene& loaded, Scene& scene) {
   return any;
 }
 
-double start_of(const SceneRobot& robot, const SpaceCoordinate& coordinate) {
-  const auto found =
-      robot.state.find(coordinate_name(robot.model, {coordinate.joint, coordinate.index}));
-  return found != robot.state.end() ? found->second
-                                    : default_position(robot.model.joints()[coordinate.joint]);
+double start_of(const SceneRobot& robot, const JointCoordinate& coordinate) {
+  const auto found = robot.state.find(coordinate_name(robot.model, coordinate));
+  return found != robot.state.end()
+             ? found->second
+             : default_position(robot.model.joints()[coordinate.joint], coordinate.index);
 }
 
 std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
@@ -258,7 +258,14 @@ ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question,
   ConfigurationSpace space = space_of_robots(loaded, question);
   Configuration start;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    start.push_back(start_of(loaded.scene.robots[question.robots[coordinate.mover]], coordinate));
+    start.push_back(start_of(loaded.scene.robots[question.robots[coordinate.mover]],
+                             {coordinate.joint, coordinate.index}));
+  }
+  for (const SpacePose& pose : space.poses()) {
+    for (std::size_t index = 0; index < 7; ++index) {
+      start.push_back(
+          start_of(loaded.scene.robots[question.robots[pose.mover]], {pose.joint.value(), index}));
+    }
   }
   std::vector<Configuration> goals;
   for (const JointPositions& goal : question.goals) {
@@ -424,9 +431,10 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   if (space.is_body()) {
     path.body = std::exchange(path.robots, {}).front();
   }
-  for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    path.joints.push_back(coordinate.name);
-    path.turnings.push_back(coordinate.turns_short ? Turning::shortest : Turning::as_given);
+  for (std::size_t k = 0; k < space.size() && !space.is_body(); ++k) {
+    const bool is_short = k < space.coordinates().size() && space.coordinates()[k].turns_short;
+    path.joints.push_back(space.number_name(k));
+    path.turnings.push_back(is_short ? Turning::shortest : Turning::as_given);
   }
   path.waypoints = result.path;
   path.times = result.times;

@@ -77,6 +77,12 @@ double step_of(const TimedMotion& motion) { return std::max(motion.duration(), 1
 
 RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before) {
   const RobotModel& model = before.model();
+  for (const std::string& name : motion.joint_names) {
+    if (model.joints()[find_coordinate(model, name).joint].type == JointType::floating) {
+      throw std::invalid_argument("joint " + detail::in_quotes(name) +
+                                  " is floating: no controller of joints executes its pose");
+    }
+  }
   TrajectoryMotion joints =
       joint_motions(model, trajectory_of(motion), start_positions(before), step_of(motion));
   for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {

@@ -115,6 +115,11 @@ class LimitSources {
   /// The limits of a joint, within those of the joints that mimic it.
   [[nodiscard]] RateLimits limits(const std::string& name) const {
     const JointCoordinate coordinate = find_coordinate(robot_, name);
+    if (robot_.joints()[coordinate.joint].type == JointType::floating) {
+      throw std::invalid_argument("joint " + detail::in_quotes(name) +
+                                  ": expected joints with coordinates of their own, this one is "
+                                  "floating: no controller of joints executes its pose");
+    }
     const GivenLimits given = given_for(name);
     const std::optional<double> own = velocity_of_robot(coordinate.joint);
     const GivenLimits first = with_others({.velocity = given.velocity ? given.velocity : own,

@@ -53,7 +53,8 @@ struct GivenLimits {
 /// the same sources, except that the smaller velocity of `given` and the robot counts.
 ///
 /// @throws std::invalid_argument  names the joint without a limit of velocity or acceleration, or
-///         with one that is not > 0. Also names a joint of `given` that the robot lacks.
+///         with one that is not > 0. Also names a joint of `given` that the robot lacks, and a
+///         floating joint.
 [[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
     const RobotModel& robot, const std::vector<std::string>& joint_names,
     const std::map<std::string, GivenLimits>& given, const GivenLimits& others);

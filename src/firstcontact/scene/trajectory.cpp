@@ -5,8 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/write_json.h>
@@ -15,29 +18,40 @@ namespace firstcontact {
 namespace {
 
 constexpr std::array<std::string_view, 3> kPlanarSuffixes = {"/x", "/y", "/theta"};
+constexpr std::array<std::string_view, 7> kFloatingSuffixes = {
+    "/trans_x", "/trans_y", "/trans_z", "/rot_w", "/rot_x", "/rot_y", "/rot_z"};
 
 [[noreturn]] void refuse(const std::string& joint, const std::string& why) {
   throw std::invalid_argument("joint " + detail::in_quotes(joint) + ": " + why);
 }
 
-/// The joint and coordinate of "NAME/x", "NAME/y", "NAME/theta".
-std::optional<JointCoordinate> find_planar(const RobotModel& robot, std::string_view name) {
-  for (std::size_t k = 0; k < kPlanarSuffixes.size(); ++k) {
-    if (!name.ends_with(kPlanarSuffixes[k])) {
-      continue;
-    }
-    const auto joint = robot.find_joint(name.substr(0, name.size() - kPlanarSuffixes[k].size()));
-    if (joint && robot.joints()[*joint].type == JointType::planar) {
-      return JointCoordinate{*joint, k};
-    }
+/// The endings of the names of a joint's coordinates; none where the joint has one at most.
+std::span<const std::string_view> suffixes_of(JointType type) {
+  if (type == JointType::planar) {
+    return kPlanarSuffixes;
   }
-  return std::nullopt;
+  return type == JointType::floating ? kFloatingSuffixes : std::span<const std::string_view>();
+}
+
+/// The joint and coordinate of a name such as "NAME/theta" or "NAME/rot_w".
+std::optional<JointCoordinate> find_by_suffix(const RobotModel& robot, std::string_view name) {
+  const std::size_t slash = name.rfind('/');
+  const auto joint =
+      slash == std::string_view::npos ? std::nullopt : robot.find_joint(name.substr(0, slash));
+  if (!joint) {
+    return std::nullopt;
+  }
+  const auto suffixes = suffixes_of(robot.joints()[*joint].type);
+  const auto found = std::ranges::find(suffixes, name.substr(slash));
+  return found == suffixes.end() ? std::nullopt
+                                 : std::optional(JointCoordinate{
+                                       *joint, static_cast<std::size_t>(found - suffixes.begin())});
 }
 
 [[noreturn]] void refuse_unknown(const RobotModel& robot, std::string_view name) {
   std::vector<std::string> names;
   for (std::size_t joint = 0; joint < robot.joints().size(); ++joint) {
-    for (std::size_t k = 0; k < coordinate_count(robot.joints()[joint].type); ++k) {
+    for (std::size_t k = 0; k < position_count(robot.joints()[joint].type); ++k) {
       names.push_back(coordinate_name(robot, {joint, k}));
     }
   }
@@ -126,7 +140,9 @@ class MotionBuilder {
       const Joint& what = robot_.joints()[joint];
       if (what.mimic) {
         require_same(joint);
-      } else if (what.type == JointType::floating || what.type == JointType::ball) {
+      } else if (what.type == JointType::floating) {
+        result.joints.insert({what.name, pose_motion(joint)});
+      } else if (what.type == JointType::ball) {
         result.joints.insert({what.name, Motion::fixed()});
       } else if (what.type == JointType::planar) {
         result.joints.insert(
@@ -160,22 +176,50 @@ class MotionBuilder {
     }
   }
 
+  /// The motion of a floating joint through the points, where the trajectory names it.
+  [[nodiscard]] Motion pose_motion(std::size_t joint) const {
+    const std::string& name = robot_.joints()[joint].name;
+    std::array<JointCoordinate, kFloatingSuffixes.size()> all;
+    bool moves = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      all.at(k) = {joint, k};
+      moves = moves || columns_.contains(all.at(k));
+    }
+    if (moves && !trajectory_.points.front().velocities.empty()) {
+      refuse(name, "expected positions alone, as it is floating; got velocities");
+    }
+    std::vector<double> times;
+    std::vector<Pose> poses;
+    for (std::size_t point = 0; point < (moves ? trajectory_.points.size() : 1); ++point) {
+      std::array<double, kFloatingSuffixes.size()> positions{};
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        positions.at(k) = position(all.at(k), point);
+      }
+      times.push_back(trajectory_.points[point].time / duration_);
+      poses.push_back(pose_of_positions(positions));
+    }
+    try {
+      return poses.size() == 1 ? Motion::fixed(poses.front()) : Motion::waypoints(times, poses);
+    } catch (const std::invalid_argument& error) {
+      refuse(name, error.what());
+    }
+  }
+
   /// [rad or m]  The position of a coordinate at a point, from the trajectory or the given
   /// positions.
-  [[nodiscard]] double position(std::size_t joint, std::size_t point) const {
-    const JointCoordinate which{joint, 0};
+  [[nodiscard]] double position(const JointCoordinate& which, std::size_t point) const {
     if (const auto column = columns_.find(which); column != columns_.end()) {
       return trajectory_.points[point].positions[column->second];
     }
     if (const auto held = held_.find(which); held != held_.end()) {
       return held->second;
     }
-    const Joint& what = robot_.joints()[joint];
-    return what.mimic ? mimicked(*what.mimic, point) : default_position(what);
+    const Joint& what = robot_.joints()[which.joint];
+    return what.mimic ? mimicked(*what.mimic, point) : default_position(what, which.index);
   }
 
   [[nodiscard]] double mimicked(const Mimic& mimic, std::size_t point) const {
-    return mimic.multiplier * position(*robot_.find_joint(mimic.joint), point) + mimic.offset;
+    return mimic.multiplier * position({*robot_.find_joint(mimic.joint), 0}, point) + mimic.offset;
   }
 
   /// Requires that a mimic joint has the positions that follow from the other joint.
@@ -188,7 +232,7 @@ class MotionBuilder {
     }
     for (std::size_t point = 0; point < trajectory_.points.size(); ++point) {
       const double follows = mimicked(*what.mimic, point);
-      const double said = position(joint, point);
+      const double said = position(which, point);
       if (!(std::abs(said - follows) <= kSlack)) {
         refuse(what.name, "expected " + detail::write_json(follows) + " at " +
                               detail::write_json(trajectory_.points[point].time) +
@@ -208,8 +252,8 @@ class MotionBuilder {
 }  // namespace
 
 std::optional<JointCoordinate> known_coordinate(const RobotModel& robot, std::string_view name) {
-  if (const auto planar = find_planar(robot, name)) {
-    return planar;
+  if (const auto found = find_by_suffix(robot, name)) {
+    return found;
   }
   const auto joint = robot.find_joint(name);
   const bool has_one = joint && coordinate_count(robot.joints()[*joint].type) == 1;
@@ -230,15 +274,22 @@ JointCoordinate find_coordinate(const RobotModel& robot, std::string_view name) 
            "expected one coordinate of this planar joint: NAME/x, NAME/y or "
            "NAME/theta");
   }
+  if (type == JointType::floating) {
+    refuse(std::string(name),
+           "expected one coordinate of this floating joint: NAME/trans_x, NAME/trans_y, "
+           "NAME/trans_z, NAME/rot_w, NAME/rot_x, NAME/rot_y or NAME/rot_z");
+  }
   refuse(std::string(name),
          std::string("expected a joint with a coordinate, this one is ") + to_string(type));
 }
 
 std::string coordinate_name(const RobotModel& robot, const JointCoordinate& coordinate) {
-  const Joint& joint = robot.joints()[coordinate.joint];
-  return joint.type == JointType::planar
-             ? joint.name + std::string(kPlanarSuffixes.at(coordinate.index))
-             : joint.name;
+  return coordinate_name(robot.joints()[coordinate.joint], coordinate.index);
+}
+
+std::string coordinate_name(const Joint& joint, std::size_t index) {
+  const auto suffixes = suffixes_of(joint.type);
+  return suffixes.empty() ? joint.name : joint.name + std::string(suffixes[index]);
 }
 
 bool names_fixed_joint(const RobotModel& robot, std::string_view name) {
@@ -246,9 +297,26 @@ bool names_fixed_joint(const RobotModel& robot, std::string_view name) {
   return joint && robot.joints()[*joint].type == JointType::fixed;
 }
 
-double default_position(const Joint& joint) {
+double default_position(const Joint& joint, std::size_t index) {
+  if (joint.type == JointType::floating) {
+    return index == 3 ? 1.0 : 0.0;
+  }
   const double below = std::min(0.0, joint.limits.upper.value_or(0.0));
   return joint.limits.lower ? std::max(below, *joint.limits.lower) : below;
+}
+
+std::size_t position_count(JointType type) {
+  return type == JointType::floating ? kFloatingSuffixes.size() : coordinate_count(type);
+}
+
+Pose pose_of_positions(std::span<const double> positions) {
+  return {{positions[0], positions[1], positions[2]},
+          Eigen::Quaterniond(positions[3], positions[4], positions[5], positions[6])};
+}
+
+std::array<double, 7> positions_of_pose(const Pose& pose) {
+  const Eigen::Quaterniond& r = pose.rotation;
+  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
 }
 
 TrajectoryMotion joint_motions(const RobotModel& robot, const Trajectory& trajectory,

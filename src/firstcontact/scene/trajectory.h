@@ -3,14 +3,17 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/robot/robot_model.h>
 #include <firstcontact/robot/robot_motion.h>
@@ -30,7 +33,10 @@ struct TrajectoryPoint {
 ///
 /// The robot rests before the first time and after the last.
 ///
-/// A planar joint has three names: NAME/x, NAME/y [m], NAME/theta [rad].
+/// A planar joint has three names: NAME/x, NAME/y [m], NAME/theta [rad]. A floating joint has
+/// seven, as MoveIt calls them: NAME/trans_x, NAME/trans_y, NAME/trans_z [m] and the quaternion
+/// NAME/rot_w, NAME/rot_x, NAME/rot_y, NAME/rot_z. Between points it moves its origin on a line and
+/// turns at a constant rate by the shortest rotation; it takes no velocities.
 struct Trajectory {
   std::vector<std::string> joint_names;  ///< Names of coordinates, each once.
   std::vector<TrajectoryPoint> points;  ///< At least one. Times are >= 0 and increase strictly; the
@@ -48,7 +54,7 @@ using JointPositions = std::map<std::string, double, std::less<>>;
 /// One coordinate of a joint.
 struct JointCoordinate {
   std::size_t joint = 0;  ///< Index of the joint in the model.
-  std::size_t index = 0;  ///< 0; up to 2 for planar joints.
+  std::size_t index = 0;  ///< 0; up to 2 for planar joints, up to 6 for floating ones.
 
   friend auto operator<=>(const JointCoordinate&, const JointCoordinate&) = default;
 };
@@ -56,7 +62,7 @@ struct JointCoordinate {
 /// Finds the coordinate that a trajectory calls `name`.
 ///
 /// @throws std::invalid_argument if the robot has none of this name (with the nearest that it has),
-///         or it cannot follow a trajectory: fixed, floating and ball joints
+///         or it cannot follow a trajectory: fixed and ball joints
 [[nodiscard]] FIRSTCONTACT_API JointCoordinate find_coordinate(const RobotModel& robot,
                                                                std::string_view name);
 
@@ -67,6 +73,9 @@ struct JointCoordinate {
 /// The name of a coordinate in trajectories.
 [[nodiscard]] FIRSTCONTACT_API std::string coordinate_name(const RobotModel& robot,
                                                            const JointCoordinate& coordinate);
+
+/// The name of a joint's coordinate in trajectories.
+[[nodiscard]] FIRSTCONTACT_API std::string coordinate_name(const Joint& joint, std::size_t index);
 
 /// Whether a position of this name has no effect, as the joint is fixed.
 [[nodiscard]] FIRSTCONTACT_API bool names_fixed_joint(const RobotModel& robot,
@@ -83,8 +92,20 @@ struct JointCoordinate {
 
 /// The position of a coordinate that nothing else states: 0, or the limit next to it.
 ///
+/// A floating joint is at the identity.
+///
+/// @param index  of the coordinate in the joint
 /// @returns  [rad or m]
-[[nodiscard]] FIRSTCONTACT_API double default_position(const Joint& joint);
+[[nodiscard]] FIRSTCONTACT_API double default_position(const Joint& joint, std::size_t index = 0);
+
+/// The number of coordinates that trajectories have of a joint: 7 of a floating one.
+[[nodiscard]] FIRSTCONTACT_API std::size_t position_count(JointType type);
+
+/// The pose of seven positions of a floating joint, in their order.
+[[nodiscard]] FIRSTCONTACT_API Pose pose_of_positions(std::span<const double> positions);
+
+/// The seven positions of a floating joint at a pose, in their order.
+[[nodiscard]] FIRSTCONTACT_API std::array<double, 7> positions_of_pose(const Pose& pose);
 
 /// The way that a continuous joint, or the angle of a planar one, went along a trajectory.
 struct JointTurn {
@@ -127,7 +148,7 @@ struct TrajectoryMotion {
 ///
 /// Coordinates that the trajectory does not name rest at `held`, else at default_position(). A
 /// joint that mimics another may be named as long as its positions agree to 1e-6, the rounding of
-/// six digits. It follows the other exactly. Floating and ball joints rest at the identity.
+/// six digits. It follows the other exactly. Ball joints rest at the identity.
 ///
 /// @param held      positions of coordinates that the trajectory does not name
 /// @param duration  [s]  > 0, at least the last time

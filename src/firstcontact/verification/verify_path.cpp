@@ -1,6 +1,7 @@
 #include <firstcontact/verification/verify_path.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -194,10 +195,18 @@ class PathProof {
     return least;
   }
 
+  /// [m and rad alike]  Floating joints have a distance and an angle.
   [[nodiscard]] double way_of_joints(const std::vector<double>& from,
                                      const std::vector<double>& to) const {
     double square = 0.0;
     for (std::size_t k = 0; k < from.size(); ++k) {
+      if (const auto rest = moving_.rotation_columns(k)) {
+        const double angle = angle_of(rotation_in(from, *rest), rotation_in(to, *rest));
+        square += angle * angle;
+      }
+      if (moving_.is_rotation(k)) {
+        continue;
+      }
       const bool is_short = path_.turnings.at(k) == Turning::shortest;
       const double way =
           is_short ? std::remainder(to[k] - from[k], 2.0 * std::numbers::pi) : to[k] - from[k];
@@ -206,20 +215,25 @@ class PathProof {
     return std::sqrt(square);
   }
 
+  static Eigen::Vector4d rotation_in(const std::vector<double>& q,
+                                     const std::array<std::size_t, 4>& columns) {
+    return Eigen::Vector4d(q.at(columns[0]), q.at(columns[1]), q.at(columns[2]), q.at(columns[3]))
+        .normalized();
+  }
+
+  /// [rad]  The angle of two unit quaternions, exact near 0 as well as near half a turn.
+  static double angle_of(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+    return 4.0 * std::atan2(std::min((a - b).norm(), (a + b).norm()),
+                            std::max((a - b).norm(), (a + b).norm()));
+  }
+
   /// [m]  The displacement of the origin, and that of the farthest point by the shortest rotation.
   [[nodiscard]] double way_of_body(const std::vector<double>& from,
                                    const std::vector<double>& to) const {
     const Shape& shape = shape_of_body(moving_.loaded(), *moving_.body());
     const Hierarchy& hierarchy = shape.hierarchy();
     const double reach = hierarchy.centre.norm() + hierarchy.radius + shape.radius();
-    const auto turn_of = [](const std::vector<double>& q) {
-      return Eigen::Vector4d(q[3], q[4], q[5], q[6]).normalized();
-    };
-    const Eigen::Vector4d a = turn_of(from);
-    const Eigen::Vector4d b = turn_of(to);
-    // The angle of two unit quaternions, exact near 0 as well as near half a turn.
-    const double angle = 4.0 * std::atan2(std::min((a - b).norm(), (a + b).norm()),
-                                          std::max((a - b).norm(), (a + b).norm()));
+    const double angle = angle_of(rotation_in(from, {3, 4, 5, 6}), rotation_in(to, {3, 4, 5, 6}));
     const Eigen::Vector3d way(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
     return way.norm() + reach * angle;
   }

@@ -129,7 +129,7 @@ std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) 
   std::string text;
   for (std::size_t k = 0; k < q.size(); ++k) {
     text += k == 0 ? "" : space.is_body() ? " " : ", ";
-    text += space.is_body() ? "" : space.coordinates()[k].name + "=";
+    text += space.is_body() ? "" : space.number_name(k) + "=";
     text += write_json(q[k]);
   }
   return text;

@@ -17,14 +17,16 @@ bool is_planned(const ConfigurationSpace& space, std::size_t mover, std::size_t 
   while (model.joints()[joint].mimic) {
     joint = model.find_joint(model.joints()[joint].mimic->joint).value();
   }
-  return std::any_of(
-      space.coordinates().begin(), space.coordinates().end(),
-      [&](const SpaceCoordinate& one) { return one.mover == mover && one.joint == joint; });
+  const auto is_of_joint = [&](const auto& one) {
+    return one.mover == mover && one.joint == joint;
+  };
+  return std::ranges::any_of(space.coordinates(), is_of_joint) ||
+         std::ranges::any_of(space.poses(), is_of_joint);
 }
 
 bool is_moved(const PlanScene& plan, std::size_t mover, std::size_t link) {
   const RobotModel& model = plan.space.model(mover);
-  bool moves = plan.space.is_body() || plan.times.has_value();
+  bool moves = plan.space.is_body(mover) || plan.times.has_value();
   for (auto joint = model.parent_joint(link); joint && !moves;
        joint = model.parent_joint(model.parent_link(*joint))) {
     moves = is_planned(plan.space, mover, *joint);

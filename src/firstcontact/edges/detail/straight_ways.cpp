@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/edges/detail/pose_numbers.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -14,7 +16,8 @@ constexpr std::size_t kRandomDirections = 24;
 
 std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space, const Configuration& q,
                                            RandomNumbers& random) {
-  const auto size = static_cast<Eigen::Index>(space.is_body() ? 3 : space.size());
+  const std::size_t coordinates = space.coordinates().size();
+  const auto size = static_cast<Eigen::Index>(coordinates + 3 * space.poses().size());
   std::vector<Eigen::VectorXd> all;
   const auto add = [&](const Eigen::VectorXd& v) {
     all.push_back(v);
@@ -23,11 +26,13 @@ std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space, cons
   for (Eigen::Index k = 0; k < size; ++k) {
     add(Eigen::VectorXd::Unit(size, k));
   }
-  if (space.is_body()) {
+  for (std::size_t pose = 0; pose < space.poses().size(); ++pose) {
     const Eigen::Matrix3d R =
-        Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
+        pose_at(q, space.begin_of_pose(pose)).rotation.normalized().toRotationMatrix();
     for (int k = 0; k < 3; ++k) {
-      add(R.col(k));
+      Eigen::VectorXd v = Eigen::VectorXd::Zero(size);
+      v.segment<3>(static_cast<Eigen::Index>(coordinates + 3 * pose)) = R.col(k);
+      add(v);
     }
   }
   while (all.size() < kRandomDirections + static_cast<std::size_t>(4 * size)) {
@@ -45,10 +50,14 @@ std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space, cons
 Configuration behind_way(const ConfigurationSpace& space, const Configuration& q,
                          const Eigen::VectorXd& direction, double way) {
   Configuration place = q;
+  const std::size_t coordinates = space.coordinates().size();
   for (std::size_t k = 0; k < static_cast<std::size_t>(direction.size()); ++k) {
-    place[k] += way * direction[static_cast<Eigen::Index>(k)];
+    const std::size_t in_poses = k < coordinates ? 0 : k - coordinates;
+    const std::size_t number =
+        k < coordinates ? k : space.begin_of_pose(in_poses / 3) + in_poses % 3;
+    place[number] += way * direction[static_cast<Eigen::Index>(k)];
   }
-  return space.is_body() && !space.is_in_box(place) ? q : place;
+  return space.is_in_box(place) ? place : q;
 }
 
 }  // namespace firstcontact::detail

@@ -17,15 +17,15 @@ inline constexpr int kWayDoublings = 24;
 
 /// Unit vectors of ways from a place.
 ///
-/// They are along the axes of the world and of the body, or along each joint; then some in random
-/// directions.
+/// They are along each joint, and along the axes of each pose's frame and of what it moves; then
+/// some in random directions.
 ///
-/// @returns 3 numbers for a body, as it does not turn; else as many as the space has
+/// @returns a number for each coordinate, then 3 for each pose, which does not turn
 [[nodiscard]] std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space,
                                                          const Configuration& q,
                                                          RandomNumbers& random);
 
-/// The place at the end of a way; the place itself where a body would leave its box.
+/// The place at the end of a way; the place itself where a pose would leave its box.
 ///
 /// @param way  [m, or rad and m alike]
 [[nodiscard]] Configuration behind_way(const ConfigurationSpace& space, const Configuration& q,

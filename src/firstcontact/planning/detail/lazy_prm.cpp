@@ -95,7 +95,7 @@ class Roadmap {
   std::size_t add(const Configuration& q, bool is_goal) {
     const std::size_t added = graph_.add_node(is_goal ? 0.0 : to_goal(q), is_goal);
     places_.push_back(q);
-    const double d = static_cast<double>(work_.space().is_body() ? 6 : work_.space().size());
+    const double d = static_cast<double>(work_.space().dimension());
     const double n = static_cast<double>(places_.size());
     const auto most =
         static_cast<std::size_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * std::log(n + 1.0)));

@@ -139,8 +139,7 @@ std::vector<MovedMember> MoverContactFinder::members_at(const Configuration& q) 
     }
   }
   for (Eigen::Index k = 0; k < tangents_.size(); ++k) {
-    Configuration beside = q;
-    beside[static_cast<std::size_t>(k)] += kDifference;
+    const Configuration beside = tangents_.beside(q, k, kDifference);
     plan_.set_motions(*posed_, beside, beside);
     for (std::size_t member = 0; member < members.size(); ++member) {
       if (!moves_[member]) {

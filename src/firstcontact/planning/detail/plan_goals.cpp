@@ -19,7 +19,7 @@ namespace {
 
 /// Adds the coordinates of the joints that move a link; for mimic joints those that they mimic.
 ///
-/// Floating and ball joints have none: they rest.
+/// Floating and ball joints rest.
 void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
   for (auto joint = model.parent_joint(link); joint;
        joint = model.parent_joint(model.parent_link(*joint))) {
@@ -59,6 +59,26 @@ void require_mimicked(const ConfigurationSpace& space, const Configuration& goal
   }
 }
 
+/// The number of a configuration that is a coordinate; none where it is not planned.
+std::optional<std::size_t> number_in(const ConfigurationSpace& space, std::size_t mover,
+                                     const JointCoordinate& coordinate) {
+  const auto coordinates = space.coordinates();
+  const auto found = std::ranges::find_if(coordinates, [&](const SpaceCoordinate& one) {
+    return one.mover == mover && one.joint == coordinate.joint && one.index == coordinate.index;
+  });
+  if (found != coordinates.end()) {
+    return static_cast<std::size_t>(found - coordinates.begin());
+  }
+  const auto poses = space.poses();
+  const auto pose = std::ranges::find_if(poses, [&](const SpacePose& one) {
+    return one.mover == mover && one.joint == coordinate.joint;
+  });
+  return pose == poses.end()
+             ? std::nullopt
+             : std::optional(space.begin_of_pose(static_cast<std::size_t>(pose - poses.begin())) +
+                             coordinate.index);
+}
+
 }  // namespace
 
 std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const std::string& name) {
@@ -87,7 +107,10 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
     for (const auto& [name, position] : goal) {
       const RobotName split = split_robot_name(scene, question.robots, name);
       const JointCoordinate coordinate = find_coordinate(model_of(split), split.name);
-      if (!model_of(split).joints()[coordinate.joint].mimic) {
+      const Joint& joint = model_of(split).joints()[coordinate.joint];
+      if (joint.type == JointType::floating) {
+        named[split.which].insert({coordinate.joint, 0});  // Its pose is planned as a whole.
+      } else if (!joint.mimic) {
         named[split.which].insert(coordinate);
       }
     }
@@ -99,7 +122,10 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
   }
   for (std::size_t k = 0; k < named.size(); ++k) {
     for (const JointCoordinate& coordinate : named[k]) {
-      joints[k].push_back(coordinate_name(scene.robots[question.robots[k]].model, coordinate));
+      const RobotModel& model = scene.robots[question.robots[k]].model;
+      const Joint& joint = model.joints()[coordinate.joint];
+      joints[k].push_back(joint.type == JointType::floating ? joint.name
+                                                            : coordinate_name(model, coordinate));
     }
   }
   return joints;
@@ -119,14 +145,8 @@ Configuration goal_of(const Scene& scene, const PlanQuestion& question,
     const RobotName split = split_robot_name(scene, question.robots, name);
     const RobotModel& model = space.model(split.which);
     const JointCoordinate coordinate = find_coordinate(model, split.name);
-    const auto coordinates = space.coordinates();
-    const auto found =
-        std::find_if(coordinates.begin(), coordinates.end(), [&](const SpaceCoordinate& one) {
-          return one.mover == split.which && one.joint == coordinate.joint &&
-                 one.index == coordinate.index;
-        });
-    if (found != coordinates.end()) {
-      goal[static_cast<std::size_t>(found - coordinates.begin())] = position;
+    if (const auto number = number_in(space, split.which, coordinate)) {
+      goal[*number] = position;
     } else if (model.joints()[coordinate.joint].mimic) {
       mimics.push_back({split.which, coordinate.joint, position});
     } else {

@@ -28,8 +28,8 @@ void require_times(const PlanScene& scene) {
   if (!(times.duration > 0.0 && std::isfinite(times.duration))) {
     throw std::invalid_argument("expected a duration of the scene that is finite and > 0");
   }
-  if (times.speeds.size() != (scene.space.is_body() ? 2 : scene.space.size())) {
-    throw std::invalid_argument("expected a speed for each coordinate, or two of a body");
+  if (times.speeds.size() != scene.space.speed_count()) {
+    throw std::invalid_argument("expected a speed for each coordinate, and two of each pose");
   }
   for (const double speed : times.speeds) {
     if (!(speed > 0.0 && std::isfinite(speed))) {

@@ -46,10 +46,15 @@ std::vector<double> planned_speeds(const PlanQuestion& question, const Configura
     return {speed("linear", std::nullopt), speed("angular", std::nullopt)};
   }
   std::vector<double> speeds;
+  speeds.reserve(space.speed_count());
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
     const RobotModel& model = space.model(coordinate.mover);
     speeds.push_back(speed(coordinate.name, model.joints()[coordinate.joint].limits.velocity));
     narrow_by_followers(model, coordinate.joint, 1.0, speeds.back());
+  }
+  for (const SpacePose& pose : space.poses()) {
+    speeds.push_back(speed(pose.name + "/linear", std::nullopt));
+    speeds.push_back(speed(pose.name + "/angular", std::nullopt));
   }
   return speeds;
 }

@@ -47,8 +47,8 @@ class Shortcuts {
     left_ = tries_;
     std::size_t waited = 0;
     while (path_.size() > 2 && may_try() && waited < longest_wait_) {
-      const bool in_one_coordinate = !work_.space().is_body() && random.below(3) == 0;
-      waited = (in_one_coordinate ? cut_coordinate(random) : cut(random)) ? 0 : waited + 1;
+      const bool in_one_part = !work_.space().is_body() && random.below(3) == 0;
+      waited = (in_one_part ? cut_part(random) : cut(random)) ? 0 : waited + 1;
     }
   }
 
@@ -154,11 +154,17 @@ class Shortcuts {
     return take(first, second, {before, first.q, second.q, behind});
   }
 
-  /// Leads one coordinate straight from one place to another; the others keep their way.
-  bool cut_coordinate(RandomNumbers& random) {
+  /// Leads one coordinate or one pose straight from one place to another; the others keep their
+  /// way.
+  bool cut_part(RandomNumbers& random) {
     OnPath first;
     OnPath second;
-    const std::size_t coordinate = random.below(work_.space().size());
+    const ConfigurationSpace& space = work_.space();
+    const std::size_t coordinates = space.coordinates().size();
+    const std::size_t part = random.below(coordinates + space.poses().size());
+    const bool is_pose = part >= coordinates;
+    const std::size_t begin = is_pose ? space.begin_of_pose(part - coordinates) : part;
+    const std::size_t end = begin + (is_pose ? 7 : 1);
     if (!draw(random, first, second)) {
       left_ -= 1;
       return false;
@@ -174,7 +180,8 @@ class Shortcuts {
       way += k == 0 ? 0.0 : length(inner[k - 1], inner[k]);
       Configuration q = inner[k];
       if (k > 0 && k + 1 < inner.size()) {
-        q[coordinate] = work_.space().interpolate(first.q, second.q, way / whole)[coordinate];
+        const Configuration straight = space.interpolate(first.q, second.q, way / whole);
+        std::copy(straight.begin() + at(begin), straight.begin() + at(end), q.begin() + at(begin));
       }
       places.push_back(std::move(q));
     }

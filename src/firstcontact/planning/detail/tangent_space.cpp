@@ -23,10 +23,12 @@ constexpr double kNearScrew = 0.05;  // [-]  Most by which a motion may depart f
                                      // axis.
 constexpr double kLeastReach = 1e-3;  // [-]  Part of a length of the scene.
 
-Eigen::Vector3d place_of(const Configuration& q) { return {q[0], q[1], q[2]}; }
+Eigen::Vector3d place_of(const Configuration& q, std::size_t first = 0) {
+  return {q[first], q[first + 1], q[first + 2]};
+}
 
-Eigen::Quaterniond turn_of(const Configuration& q) {
-  return Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized();
+Eigen::Quaterniond turn_of(const Configuration& q, std::size_t first = 0) {
+  return Eigen::Quaterniond(q[first + 3], q[first + 4], q[first + 5], q[first + 6]).normalized();
 }
 
 Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& rotation) {
@@ -43,6 +45,11 @@ double radius_of(const Shape& shape) { return shape.hierarchy().radius + shape.r
 double reach_of(const MemberGeometry& geometry) {
   return geometry.X_MG.position.norm() + geometry.shape.hierarchy().centre.norm() +
          radius_of(geometry.shape);
+}
+
+/// [m]  The radius of a mover that is a body.
+double radius_of_body(const PlanScene& scene, std::size_t mover) {
+  return radius_of(scene.scene.geometries(scene.scene.first_member(scene.robots[mover]))[0].shape);
 }
 
 /// The joint whose coordinates a joint has: itself, or the one that it mimics.
@@ -117,6 +124,13 @@ class RobotReach {
           lever.turned = length;  // A planar joint slides before it turns.
         }
       }
+      for (const SpacePose& pose : scene_.space.poses()) {
+        if (pose.mover == mover_ && pose.joint == *joint) {
+          lever.moves = true;
+          lever.turned = length;  // It slides before it turns.
+          ways += std::max(pose.low.norm(), pose.high.norm());
+        }
+      }
       length += ways + model_.joints()[*joint].X_PJ.position.norm();
     }
     return lever;
@@ -138,7 +152,10 @@ double least_reach(const PlanScene& scene) {
       length = std::max(length, radius_of(geometry.shape));
     }
   }
-  double room = 0.5 * (scene.space.high() - scene.space.low()).norm();
+  double room = 0.0;
+  for (const SpacePose& pose : scene.space.poses()) {
+    room = std::max(room, 0.5 * (pose.high - pose.low).norm());
+  }
   for (const SpaceCoordinate& coordinate : scene.space.coordinates()) {
     room = std::max(room, coordinate.slides ? coordinate.upper - coordinate.lower : 0.0);
   }
@@ -152,26 +169,35 @@ TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
   const double least = least_reach(scene);
   if (space_.is_body()) {
     const std::size_t member = scene.scene.first_member(scene.robots.front());
-    const Shape& shape = scene.scene.geometries(member)[0].shape;
-    p_BC_ = shape.hierarchy().centre;
-    reach_ = std::max(radius_of(shape), least);
+    p_BC_ = scene.scene.geometries(member)[0].shape.hierarchy().centre;
+    reach_ = std::max(radius_of_body(scene, 0), least);
     inverse_metric_ = Eigen::VectorXd::Ones(6);
     inverse_metric_.tail<3>().setConstant(1.0 / (reach_ * reach_));
     return;
   }
   std::vector<double> reaches;  // The reach of each mover.
   for (std::size_t mover = 0; mover < scene.robots.size(); ++mover) {
-    reaches.push_back(std::max(RobotReach(scene, mover).reach(), least));
+    reaches.push_back(std::max(scene.space.is_body(mover) ? radius_of_body(scene, mover)
+                                                          : RobotReach(scene, mover).reach(),
+                               least));
     reach_ = std::max(reach_, reaches.back());
   }
-  inverse_metric_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(space_.size()));
-  for (std::size_t k = 0; k < space_.size(); ++k) {
+  inverse_metric_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(space_.dimension()));
+  for (std::size_t k = 0; k < space_.coordinates().size(); ++k) {
     const SpaceCoordinate& coordinate = space_.coordinates()[k];
     if (!coordinate.slides) {
       const double reach = reaches[coordinate.mover];
       inverse_metric_[static_cast<Eigen::Index>(k)] = 1.0 / (reach * reach);
     }
   }
+  for (std::size_t pose = 0; pose < space_.poses().size(); ++pose) {
+    const double reach = reaches[space_.poses()[pose].mover];
+    inverse_metric_.segment<3>(at(pose) + 3).setConstant(1.0 / (reach * reach));
+  }
+}
+
+Eigen::Index TangentSpace::at(std::size_t pose) const {
+  return static_cast<Eigen::Index>(space_.coordinates().size() + 6 * pose);
 }
 
 double TangentSpace::product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
@@ -182,35 +208,55 @@ double TangentSpace::length(const Eigen::VectorXd& dq) const { return std::sqrt(
 
 Eigen::VectorXd TangentSpace::difference(const Configuration& from, const Configuration& to) const {
   Eigen::VectorXd dq(size());
-  if (space_.is_body()) {
-    const Eigen::Quaterniond begin = turn_of(from);
-    const Eigen::Quaterniond end = turn_of(to);
-    dq.head<3>() = place_of(to) + end * p_BC_ - place_of(from) - begin * p_BC_;
-    dq.tail<3>() = rotation_vector_of(end * begin.conjugate());
-    return dq;
-  }
-  for (std::size_t k = 0; k < from.size(); ++k) {
+  for (std::size_t k = 0; k < space_.coordinates().size(); ++k) {
     dq[static_cast<Eigen::Index>(k)] =
         space_.coordinates()[k].turns_short ? shortest_way(from[k], to[k]) : to[k] - from[k];
+  }
+  for (std::size_t pose = 0; pose < space_.poses().size(); ++pose) {
+    const std::size_t first = space_.begin_of_pose(pose);
+    const Eigen::Quaterniond begin = turn_of(from, first);
+    const Eigen::Quaterniond end = turn_of(to, first);
+    dq.segment<3>(at(pose)) =
+        place_of(to, first) + end * p_BC_ - place_of(from, first) - begin * p_BC_;
+    dq.segment<3>(at(pose) + 3) = rotation_vector_of(end * begin.conjugate());
   }
   return dq;
 }
 
+void TangentSpace::move_pose(std::size_t pose, const Eigen::VectorXd& dq, Configuration& q) const {
+  const std::size_t first = space_.begin_of_pose(pose);
+  const Eigen::Quaterniond begin = turn_of(q, first);
+  const Eigen::Vector3d turn = dq.segment<3>(at(pose) + 3);
+  const Eigen::Quaterniond end = (rotation_from_vector(turn) * begin).normalized();
+  const Eigen::Vector3d place =
+      place_of(q, first) + begin * p_BC_ + dq.segment<3>(at(pose)) - end * p_BC_;
+  const Configuration numbers = configuration_of({place, end});
+  std::copy(numbers.begin(), numbers.end(), q.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
 Configuration TangentSpace::moved(const Configuration& q, const Eigen::VectorXd& dq) const {
-  if (space_.is_body()) {
-    const Eigen::Quaterniond begin = turn_of(q);
-    const Eigen::Quaterniond end =
-        (rotation_from_vector(Eigen::Vector3d(dq.tail<3>())) * begin).normalized();
-    const Eigen::Vector3d place = place_of(q) + begin * p_BC_ + dq.head<3>() - end * p_BC_;
-    return {place.x(), place.y(), place.z(), end.w(), end.x(), end.y(), end.z()};
-  }
   Configuration to = q;
-  for (std::size_t k = 0; k < q.size(); ++k) {
+  for (std::size_t pose = 0; pose < space_.poses().size(); ++pose) {
+    move_pose(pose, dq, to);
+  }
+  for (std::size_t k = 0; k < space_.coordinates().size(); ++k) {
     const SpaceCoordinate& coordinate = space_.coordinates()[k];
     to[k] += dq[static_cast<Eigen::Index>(k)];
     if (coordinate.has_limits) {
       to[k] = std::clamp(to[k], std::min(coordinate.lower, q[k]), std::max(coordinate.upper, q[k]));
     }
+  }
+  return to;
+}
+
+Configuration TangentSpace::beside(const Configuration& q, Eigen::Index number, double step) const {
+  Configuration to = q;
+  const auto k = static_cast<std::size_t>(number);
+  const std::size_t coordinates = space_.coordinates().size();
+  if (k < coordinates) {
+    to[k] += step;
+  } else {
+    move_pose((k - coordinates) / 6, step * Eigen::VectorXd::Unit(size(), number), to);
   }
   return to;
 }

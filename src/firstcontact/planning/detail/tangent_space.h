@@ -24,9 +24,10 @@ struct MovedMember {
 
 /// The motions dq that lead from a place, to first order, with a kinetic metric.
 ///
-/// A body has the displacement of the centre of its hierarchy [m], then a rotation vector [rad],
-/// both in the world. A robot has the changes of its coordinates [rad or m]. All of this steers a
-/// search only: no proof depends on it.
+/// They are the changes of coordinates [rad or m], then for each pose the displacement of a point
+/// [m] and a rotation vector [rad], both in the frame of the pose. The point is the centre of a
+/// body's hierarchy, and the origin of what a floating joint moves. All of this steers a search
+/// only: no proof depends on it.
 class TangentSpace {
  public:
   explicit TangentSpace(const PlanScene& scene);
@@ -50,6 +51,10 @@ class TangentSpace {
 
   /// The place to which a motion leads, within the limits.
   [[nodiscard]] Configuration moved(const Configuration& q, const Eigen::VectorXd& dq) const;
+
+  /// The place that is a little beside another one along one number of a motion, limits or not.
+  [[nodiscard]] Configuration beside(const Configuration& q, Eigen::Index number,
+                                     double step) const;
 
   /// Transforms a motion to axes that go with the mover, where a screw is constant.
   [[nodiscard]] Eigen::VectorXd in_body(const Configuration& q, const Eigen::VectorXd& dq) const;
@@ -79,8 +84,12 @@ class TangentSpace {
   [[nodiscard]] MovedMember moved_body(const Configuration& q) const;
 
  private:
+  /// The number of a pose's displacement in a motion.
+  [[nodiscard]] Eigen::Index at(std::size_t pose) const;
+  void move_pose(std::size_t pose, const Eigen::VectorXd& dq, Configuration& q) const;
+
   const ConfigurationSpace& space_;
-  Eigen::Vector3d p_BC_ = Eigen::Vector3d::Zero();  // [m]  Only of a body.
+  Eigen::Vector3d p_BC_ = Eigen::Vector3d::Zero();  // [m]  Only of a body alone.
   double reach_ = 0.0;                              // [m]
   Eigen::VectorXd inverse_metric_;
 };

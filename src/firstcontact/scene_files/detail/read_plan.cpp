@@ -12,6 +12,7 @@
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/detail/scene_names.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/scene_files/detail/floating_state.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
 #include <firstcontact/text/write_json.h>
 
@@ -171,7 +172,9 @@ class PlanReader {
     }
     if (const JsonValue* joints = find(object, "joints")) {
       for (const JsonValue& joint : read_.array(*joints, "an array of names of joints")) {
-        plan.joints.push_back(known_joint(joint, read_.string(joint, "the name of a joint"), plan));
+        const std::string& name = read_.string(joint, "the name of a joint");
+        plan.joints.push_back(is_floating(joint, name, plan) ? name
+                                                             : known_joint(joint, name, plan));
       }
     }
     if (const JsonValue* start = find(object, "start")) {
@@ -179,7 +182,12 @@ class PlanReader {
     }
     if (const JsonValue* speeds = find(object, "speeds")) {
       for (const auto& [name, speed] : members_of(*speeds, "speeds by joint")) {
-        plan.speeds[known_joint(speed, name, plan)] = speed_of(speed);
+        const std::size_t slash = name.rfind('/');
+        const std::string of = name.substr(0, slash);
+        const bool is_rate = name.ends_with("/linear") || name.ends_with("/angular");
+        plan.speeds[is_rate && is_floating(speed, of, plan) ? name
+                                                            : known_joint(speed, name, plan)] =
+            speed_of(speed);
       }
     }
     if (const JsonValue* bounds = find(object, "bounds")) {
@@ -316,6 +324,15 @@ class PlanReader {
     return plan.robots.size() == 1 ? name : scene_.robots[plan.robots[which]].name + "/" + name;
   }
 
+  /// Whether a name is that of a floating joint, whose pose is planned as a whole.
+  bool is_floating(const JsonValue& where, const std::string& name,
+                   const PlanQuestion& plan) const {
+    const RobotName split = split_name(where, name, plan);
+    const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
+    const auto joint = model.find_joint(split.name);
+    return joint && model.joints()[*joint].type == JointType::floating;
+  }
+
   std::string known_joint(const JsonValue& where, const std::string& name,
                           const PlanQuestion& plan) const {
     const RobotName split = split_name(where, name, plan);
@@ -354,7 +371,15 @@ class PlanReader {
       }
     } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
       for (const auto& [joint, position] : *object) {
-        positions[known_joint(position, joint, plan)] = read_.number(position);
+        const RobotName split = split_name(position, joint, plan);
+        const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
+        if (const auto pose = floating_positions(model, split.name, position, read_)) {
+          for (const auto& [coordinate, number] : *pose) {
+            positions[full_name(plan, split.which, coordinate)] = number;
+          }
+        } else {
+          positions[known_joint(position, joint, plan)] = read_.number(position);
+        }
       }
     } else {
       read_.fail_expected(

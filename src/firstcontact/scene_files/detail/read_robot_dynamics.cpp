@@ -161,6 +161,11 @@ void require_own_coordinate(const SceneRobot& robot, const std::string& name,
                             const JsonValue& value, const JsonReader& read) {
   try {
     const std::size_t joint = find_coordinate(robot.model, name).joint;
+    if (robot.model.joints()[joint].type == JointType::floating) {
+      read.fail(value, "joint " + in_quotes(name) +
+                           ": expected none, as a floating joint starts "
+                           "at rest");
+    }
     if (const std::optional<Mimic>& mimic = robot.model.joints()[joint].mimic) {
       read.fail(value, "joint " + in_quotes(name) + " follows " + in_quotes(mimic->joint) +
                            "; give the velocity of that one");

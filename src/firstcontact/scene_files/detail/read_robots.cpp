@@ -15,6 +15,7 @@
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/scene_files/detail/floating_state.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
 #include <firstcontact/scene_files/detail/read_robot_dynamics.h>
@@ -187,6 +188,12 @@ class RobotReader {
       if (names_fixed_joint(robot.model, joint)) {
         (void)joint_position(position, read_);
         fixed.push_back(joint);
+        continue;
+      }
+      if (const auto pose = floating_positions(robot.model, joint, position, read_)) {
+        for (const auto& [name, number] : *pose) {
+          robot.state[name] = number;
+        }
         continue;
       }
       try {

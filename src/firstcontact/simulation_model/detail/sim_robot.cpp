@@ -82,9 +82,18 @@ class RobotMaker {
         state.velocities.segment<3>(block.velocity + 3) = dynamics_.angular_velocity;
       } else if (!block.quaternion()) {
         set_coordinates(block, state);
+      } else if (const auto given = motion_.given(block.joint)) {
+        state.positions.segment(block.position, block.positions) =
+            positions_at(std::get<Motion>(*given).pose(0.0), block.positions);
       }
     }
     return state;
+  }
+
+  /// A pose as the positions of a floating joint, or of a ball joint without the first three.
+  static Eigen::VectorXd positions_at(const Pose& pose, Eigen::Index count) {
+    const auto all = positions_of_pose(pose);
+    return Eigen::Map<const Eigen::Matrix<double, 7, 1>>(all.data()).tail(count);
   }
 
   void set_coordinates(const MechanismJoint& block, MechanismState& state) const {

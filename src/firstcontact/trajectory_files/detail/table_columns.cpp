@@ -47,7 +47,7 @@ bool is_joint(const RobotModel& robot, std::string_view name) {
 
 /// The joint at the end of a name, behind the topic of a message.
 ///
-/// It is the last word, or the last two for a planar joint.
+/// It is the last word, or the last two for a planar or floating joint.
 std::optional<std::string_view> joint_after_topic(const RobotModel& robot, std::string_view name) {
   if (is_joint(robot, name)) {
     return name;
@@ -108,6 +108,9 @@ void require_seconds(std::string_view column, std::string_view unit) {
 /// Whether a coordinate is an angle [rad], or else a length [m].
 bool is_angle(const RobotModel& robot, const JointCoordinate& coordinate) {
   const JointType type = robot.joints()[coordinate.joint].type;
+  if (type == JointType::floating) {
+    return false;
+  }
   return type == JointType::planar ? coordinate.index == 2 : type != JointType::prismatic;
 }
 
@@ -129,6 +132,10 @@ void require_unit(std::string_view column, std::string_view name, std::string_vi
   const std::optional<JointCoordinate> coordinate = known_coordinate(robot, name);
   if (!coordinate) {
     return;  // The joint is fixed, and its numbers move nothing.
+  }
+  const bool is_floating = robot.joints()[coordinate->joint].type == JointType::floating;
+  if (is_floating && coordinate->index >= 3) {
+    refuse(column, "expected no unit, as it is a number of a quaternion; got " + in_quotes(unit));
   }
   const bool turns = is_angle(robot, *coordinate);
   const std::array<std::string, 3> units = units_of(turns, order);

@@ -12,6 +12,14 @@ constexpr double kRoundedUp = 1.0 + 0x1p-48;
 
 /// A frame of a chain, and bounds of its motion.
 class ChainFrame {
+  /// A joint that was passed, with its rates.
+  struct Passed {
+    IntervalVector3 place;  // Place of its axis.
+    double turn_rate = 0.0;
+    double slide_rate = 0.0;
+    TrackingError error;
+  };
+
  public:
   ChainFrame(const RigidMotion* base, double time, double half, const Eigen::Vector3d& origin)
       : time_(time), half_(half) {
@@ -39,6 +47,10 @@ class ChainFrame {
   void move(const ChainJoint& joint) {
     Passed& passed = passed_.emplace_back();
     passed.error = joint.error;
+    if (joint.free != nullptr) {
+      move_freely(*joint.free, passed);
+      return;
+    }
     for (const ChainJoint::Slide& slide : joint.slides) {
       const CoordinateWindow q = slide.coordinate->around(time_, half_);
       const IntervalVector3 direction = X_.rotation * slide.direction;
@@ -60,6 +72,33 @@ class ChainFrame {
       turn_rate_ = kRoundedUp * (turn_rate_ + q.rate_size);
       passed.turn_rate = q.rate_size;
     }
+  }
+
+  /// Adds a joint whose child moves at constant rates.
+  ///
+  /// Derivation: p and R are the child's in J, with the velocity v and the spin u there. In the
+  /// world the child's origin accelerates by at most a + (e + w^2) |p| + 2 w |v| + |dv/dt|, and its
+  /// spin changes by at most e + w |u|. The origin turns about an axis at the distance `lever`, so
+  /// |dv/dt| <= |u|^2 lever. |v| and |p| are those of the middle of the window, plus what they may
+  /// change until its ends.
+  void move_freely(const RigidMotion& motion, Passed& passed) {
+    const RigidMotion::Rates rates = motion.rates(time_);
+    const IntervalTransform X = motion.enclosure(time_, Eigen::Vector3d::Zero());
+    const double turn_size = norm(rates.spin).upper();
+    const double change = kRoundedUp * turn_size * turn_size * rates.lever;
+    const double speed = kRoundedUp * (norm(rates.velocity).upper() + half_ * change);
+    const double size = kRoundedUp * (norm(X.position).upper() + half_ * speed);
+    const IntervalVector3 way = X_.rotation * X.position;
+    velocity_ = velocity_ + cross(spin_, way) + X_.rotation * rates.velocity;
+    acceleration_ = kRoundedUp * (acceleration_ + turning() * kRoundedUp * size +
+                                  kRoundedUp * (2.0 * turn_rate_ * speed + change));
+    spin_ = spin_ + X_.rotation * rates.spin;
+    turn_acceleration_ = kRoundedUp * (turn_acceleration_ + kRoundedUp * turn_rate_ * turn_size);
+    turn_rate_ = kRoundedUp * (turn_rate_ + turn_size);
+    X_ = {X_.rotation * X.rotation, X_.position + way};
+    passed.place = X_.position;
+    passed.turn_rate = turn_size;
+    passed.slide_rate = speed;
   }
 
   [[nodiscard]] const IntervalTransform& transform() const { return X_; }
@@ -93,14 +132,6 @@ class ChainFrame {
   }
 
  private:
-  /// A joint that was passed, with its rates.
-  struct Passed {
-    IntervalVector3 place;  // Place of its axis.
-    double turn_rate = 0.0;
-    double slide_rate = 0.0;
-    TrackingError error;
-  };
-
   static IntervalMatrix3 turn(const IntervalVector3& axis, const Interval& angle) {
     IntervalMatrix3 unit;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -18,7 +18,8 @@
 
 namespace firstcontact::detail {
 
-/// A joint that moves, in one piece of its coordinates: slides along fixed directions, then a turn.
+/// A joint that moves, in one piece of its coordinates: slides along fixed directions, then a turn;
+/// or a rigid motion of its own.
 struct ChainJoint {
   struct Slide {
     IntervalVector3 direction;  ///< [-]  In J.
@@ -30,6 +31,8 @@ struct ChainJoint {
   const CoordinatePolynomial* angle = nullptr;
   std::vector<Slide> slides = {};
   TrackingError error = {};
+  /// The motion of the child's origin in J; null where the joint slides and turns.
+  const RigidMotion* free = nullptr;
 };
 
 /// The motion of a frame with a pivot at its end of a chain of joints.
@@ -37,7 +40,7 @@ struct ChainJoint {
 /// Bounds of accelerations go along the chain. A point at a distance r from the origin of a frame
 /// accelerates by at most a + (e + w^2) r. a is that of the origin; e and w bound the turn of the
 /// frame. A joint adds its own rates to w. It adds their derivatives, and w times the rates, to e.
-/// Its slides, with Coriolis' term, add to a.
+/// Its slides, with Coriolis' term, add to a. So does the way of a joint that moves freely.
 ///
 /// Source: the recursion of J. Y. S. Luh, M. W. Walker, R. P. C. Paul, "On-line computational
 /// scheme for mechanical manipulators", Journal of Dynamic Systems, Measurement, and Control 102

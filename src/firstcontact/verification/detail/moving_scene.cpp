@@ -1,6 +1,7 @@
 #include <firstcontact/verification/detail/moving_scene.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -54,8 +55,9 @@ void require_limits(const RobotModel& model, std::size_t joint, double position)
 double position_in_scene(const SceneRobot& robot, const std::string& name) {
   const JointCoordinate which = find_coordinate(robot.model, name);
   const auto found = robot.state.find(coordinate_name(robot.model, which));
-  return found != robot.state.end() ? found->second
-                                    : default_position(robot.model.joints()[which.joint]);
+  return found != robot.state.end()
+             ? found->second
+             : default_position(robot.model.joints()[which.joint], which.index);
 }
 
 LoadedScene load(const PlannedPath& path) {
@@ -146,6 +148,11 @@ MovingScene::MovingScene(const PlannedPath& path) : path_(path), loaded_(load(pa
   }
 }
 
+std::optional<std::array<std::size_t, 4>> MovingScene::rotation_columns(std::size_t column) const {
+  const auto found = rotations_.find(column);
+  return found == rotations_.end() ? std::nullopt : std::optional(found->second);
+}
+
 double MovingScene::time(std::size_t waypoint) const {
   return path_.times.empty() ? static_cast<double>(waypoint) : path_.times.at(waypoint);
 }
@@ -184,11 +191,13 @@ void MovingScene::move_robots() {
       found->trajectory.points.push_back({.time = time(k), .positions = {}});
     }
   }
+  is_rotation_.assign(path_.joints.size(), false);
   for (std::size_t column = 0; column < path_.joints.size(); ++column) {
     const RobotName split = split_robot_name(scene, numbers, path_.joints[column]);
     const std::size_t number = numbers[split.which];
     move_joint(column, scene.robots[number], number, split.name);
   }
+  find_rotations();
   moves_.assign(member_count(scene), false);
   for (const std::size_t number : numbers) {
     if (scene.robots[number].trajectory.joint_names.empty()) {
@@ -206,6 +215,8 @@ void MovingScene::move_joint(std::size_t column, SceneRobot& robot, std::size_t 
   if (robot.model.joints()[which.joint].mimic) {
     throw BrokenPath("The joint " + in_quotes(name) + " mimics another.");
   }
+  is_rotation_[column] =
+      robot.model.joints()[which.joint].type == JointType::floating && which.index >= 3;
   require_turning(robot.model, name, path_.turnings.at(column));
   if (path_.waypoints.front().at(column) != position_in_scene(robot, name)) {
     throw BrokenPath("The path does not begin where its scene has joint " +
@@ -223,6 +234,34 @@ void MovingScene::move_joint(std::size_t column, SceneRobot& robot, std::size_t 
     robot.trajectory.points[k].positions.push_back(position);
   }
   turnings_[number][name] = path_.turnings.at(column);
+}
+
+/// Finds the whole quaternion of each floating joint among the columns.
+void MovingScene::find_rotations() {
+  constexpr std::array<const char*, 4> kEndings = {"/rot_w", "/rot_x", "/rot_y", "/rot_z"};
+  for (std::size_t column = 0; column < path_.joints.size(); ++column) {
+    if (!is_rotation_[column]) {
+      continue;
+    }
+    const std::string joint = path_.joints[column].substr(0, path_.joints[column].rfind('/'));
+    std::array<std::size_t, 4> columns{};
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto found = std::ranges::find(path_.joints, joint + kEndings.at(k));
+      if (found == path_.joints.end()) {
+        throw BrokenPath("The path has a part of the quaternion of joint " + in_quotes(joint) +
+                         " only.");
+      }
+      columns.at(k) = static_cast<std::size_t>(found - path_.joints.begin());
+    }
+    rotations_[columns[0]] = columns;
+    for (const std::vector<double>& q : path_.waypoints) {
+      const auto at = [&](std::size_t k) { return q.at(columns.at(k)); };
+      if (!(std::abs(std::hypot(std::hypot(at(0), at(1)), std::hypot(at(2), at(3))) - 1.0) <=
+            kUnit)) {
+        throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
+      }
+    }
+  }
 }
 
 void MovingScene::find_moving(const SceneRobot& robot, std::size_t number) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -42,6 +43,13 @@ class MovingScene {
   /// Whether a member moves along edges.
   [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
 
+  /// Whether a column of the waypoints is a number of a floating joint's quaternion.
+  [[nodiscard]] bool is_rotation(std::size_t column) const { return is_rotation_.at(column); }
+
+  /// The columns of the quaternion whose first number is this column; none for other columns.
+  [[nodiscard]] std::optional<std::array<std::size_t, 4>> rotation_columns(
+      std::size_t column) const;
+
   /// [s]  The time of a waypoint.
   [[nodiscard]] double time(std::size_t waypoint) const;
 
@@ -50,6 +58,7 @@ class MovingScene {
   void move_robots();
   void move_joint(std::size_t column, SceneRobot& robot, std::size_t number,
                   const std::string& name);
+  void find_rotations();
   void find_moving(const SceneRobot& robot, std::size_t number);
   void move_body();
   void require_begin(const Pose& pose) const;
@@ -57,7 +66,9 @@ class MovingScene {
   const PlannedPath& path_;
   LoadedScene loaded_;
   std::map<std::size_t, Turnings> turnings_;
-  std::vector<bool> moves_;  // For each member.
+  std::vector<bool> moves_;        // For each member.
+  std::vector<bool> is_rotation_;  // For each column, where robots move.
+  std::map<std::size_t, std::array<std::size_t, 4>> rotations_;  // By their first column.
   std::optional<std::size_t> body_ = {};
 };
 

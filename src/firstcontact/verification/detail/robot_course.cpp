@@ -136,6 +136,9 @@ void RobotCourse::add_joint(const SceneRobot& robot, std::size_t index, double d
     course.directions = {course.axis};
     course.slides = {coordinates.course({index, 0})};
   }
+  if (joint.type == JointType::floating) {
+    float_freely(robot, index, duration, course);
+  }
   course.error = error_of(robot, index);
   has_tracking_errors_ =
       has_tracking_errors_ || course.error.angle > 0.0 || course.error.distance > 0.0;
@@ -148,7 +151,51 @@ void RobotCourse::add_joint(const SceneRobot& robot, std::size_t index, double d
     add_breaks(*course.angle);
   }
   std::for_each(course.slides.begin(), course.slides.end(), add_breaks);
+  for (const auto& piece : course.free) {
+    breaks_.push_back(piece->to());
+  }
   joints_.push_back(std::move(course));
+}
+
+/// Takes the pose of a floating joint at rest, or its motion through the points that name it.
+void RobotCourse::float_freely(const SceneRobot& robot, std::size_t joint, double duration,
+                               JointCourse& course) {
+  const Trajectory& trajectory = robot.trajectory;
+  const auto& names = trajectory.joint_names;
+  std::array<std::size_t, 7> columns{};
+  std::array<double, 7> held{};
+  bool moves = false;
+  for (std::size_t index = 0; index < columns.size(); ++index) {
+    const std::string name = coordinate_name(robot.model, {joint, index});
+    const auto column = std::find(names.begin(), names.end(), name);
+    columns.at(index) = static_cast<std::size_t>(column - names.begin());
+    moves = moves || column != names.end();
+    const auto found = robot.state.find(name);
+    held.at(index) = found != robot.state.end()
+                         ? found->second
+                         : default_position(robot.model.joints()[joint], index);
+  }
+  if (!moves) {
+    course.X_PJ = course.X_PJ * exact_transform(pose_of_positions(held));
+    return;
+  }
+  WaypointMotion motion;
+  for (const TrajectoryPoint& point : trajectory.points) {
+    std::array<double, 7> positions = held;
+    for (std::size_t index = 0; index < columns.size(); ++index) {
+      if (columns.at(index) < names.size()) {
+        positions.at(index) = point.positions.at(columns.at(index));
+      }
+    }
+    motion.times.push_back(point.time);
+    motion.poses.push_back(pose_of_positions(positions));
+  }
+  if (!trajectory.points.front().velocities.empty()) {
+    throw std::invalid_argument("expected no velocities beside a floating joint");
+  }
+  for (const RigidMotion& piece : rigid_motions(motion, duration, Eigen::Vector3d::Zero())) {
+    course.free.push_back(std::make_shared<const RigidMotion>(piece));
+  }
 }
 
 /// The tracking error of a joint. A mimic joint errs by that of its leader times its multiplier; a
@@ -226,7 +273,7 @@ CoveredMotions RobotCourse::motions(std::optional<std::size_t> frame, std::size_
     for (const std::size_t index : between) {
       const JointCourse& joint = joints_[index];
       const bool errs = joint.error.angle > 0.0 || joint.error.distance > 0.0;
-      if (!joint.angle && joint.slides.empty() && !errs) {
+      if (!joint.angle && joint.slides.empty() && joint.free.empty() && !errs) {
         fixed = after_fixed(joint.X_PJ);
         continue;
       }
@@ -237,6 +284,9 @@ CoveredMotions RobotCourse::motions(std::optional<std::size_t> frame, std::size_
       for (std::size_t s = 0; s < joint.slides.size(); ++s) {
         link_joint.slides.push_back({joint.directions[s], &joint.slides[s].at(middle)});
       }
+      const auto free = std::ranges::find_if(
+          joint.free, [&](const auto& piece) { return middle <= piece->to(); });
+      link_joint.free = free == joint.free.end() ? nullptr : free->get();
       chain.push_back(std::move(link_joint));
     }
     std::shared_ptr<const RigidMotion> base;

@@ -52,7 +52,7 @@ class RobotCourse {
                                        const IntervalTransform& X_LP, double from, double to) const;
 
  private:
-  /// The course of a joint: its angle, and its slides.
+  /// The course of a joint: its angle and its slides, or its free motion.
   struct JointCourse {
     IntervalTransform X_PJ;
     IntervalVector3 axis;
@@ -60,10 +60,14 @@ class RobotCourse {
     std::vector<IntervalVector3> directions = {};
     std::vector<CoordinateCourse> slides = {};
     TrackingError error = {};
+    /// The pieces of a floating joint's motion; empty for other joints, and where it rests.
+    std::vector<std::shared_ptr<const RigidMotion>> free = {};
   };
 
   void add_joint(const SceneRobot& robot, std::size_t joint, double duration,
                  const Turnings& turnings);
+  static void float_freely(const SceneRobot& robot, std::size_t joint, double duration,
+                           JointCourse& course);
   [[nodiscard]] TrackingError error_of(const SceneRobot& robot, std::size_t joint) const;
   [[nodiscard]] std::vector<std::size_t> joints_between(std::optional<std::size_t> frame,
                                                         std::size_t link) const;

@@ -1,0 +1,31 @@
+#include <firstcontact/scene_files/detail/floating_state.h>
+
+#include <array>
+#include <cstddef>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
+
+namespace firstcontact::detail {
+
+std::optional<JointPositions> floating_positions(const RobotModel& robot, std::string_view name,
+                                                 const JsonValue& value, const JsonReader& read) {
+  const auto joint = robot.find_joint(name);
+  if (!joint || robot.joints()[*joint].type != JointType::floating ||
+      !std::holds_alternative<JsonObject>(value.value)) {
+    return std::nullopt;
+  }
+  Pose pose = read_pose(value, read);
+  pose.rotation.normalize();
+  const std::array<double, 7> numbers = positions_of_pose(pose);
+  JointPositions positions;
+  for (std::size_t index = 0; index < numbers.size(); ++index) {
+    positions[coordinate_name(robot, {*joint, index})] = numbers.at(index);
+  }
+  return positions;
+}
+
+}  // namespace firstcontact::detail
