@@ -48,11 +48,13 @@ Movers movers_of(const PlannedPath& path) { return {path.robots, path.body, path
 
 Movers movers_of(const ScenePlan& plan) {
   Movers movers;
-  for (const std::size_t robot : plan.plan.robots) {
-    movers.robots.push_back(plan.plan.scene.robot_name(robot));
-  }
-  if (plan.plan.space.is_body()) {
-    movers.body = std::exchange(movers.robots, {}).front();
+  for (std::size_t mover = 0; mover < plan.plan.space.mover_count(); ++mover) {
+    const std::string& name = plan.plan.scene.robot_name(plan.plan.robots[mover]);
+    if (plan.plan.space.is_body(mover)) {
+      movers.body = name;
+    } else {
+      movers.robots.push_back(name);
+    }
   }
   const ConfigurationSpace& space = plan.plan.space;
   for (std::size_t k = 0; k < space.size() && !space.is_body(); ++k) {

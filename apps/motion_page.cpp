@@ -1,6 +1,7 @@
 #include "motion_page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -19,6 +20,7 @@
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/hold_contact_pairs.h>
 #include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/write_result.h>
 
 #include "atomic_file.h"
@@ -32,7 +34,7 @@ constexpr double kPlayed = 8.0;  // [s]  Duration of a path without times.
 
 /// The length of an edge; for a body its translation and, for viewing, a tenth of its turn.
 double way_of(const PlannedPath& path, const std::vector<double>& a, const std::vector<double>& b) {
-  if (path.body.empty()) {
+  if (!path.robots.empty()) {
     double way = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k) {
       way = std::max(way, std::abs(b[k] - a[k]));
@@ -78,7 +80,8 @@ void append(std::vector<double>& times, std::vector<Place>& places, double time,
 void give_trajectories(const PlannedPath& path, const std::vector<double>& times,
                        const std::vector<std::vector<double>>& positions, Scene& scene) {
   for (const std::string& name : path.robots) {
-    const std::string begin = path.robots.size() == 1 ? "" : name + "/";
+    const bool is_alone = path.robots.size() == 1 && path.body.empty();
+    const std::string begin = is_alone ? "" : name + "/";
     std::vector<std::size_t> columns;
     Trajectory trajectory{.joint_names = {}, .points = {}};
     for (std::size_t k = 0; k < path.joints.size(); ++k) {
@@ -96,6 +99,17 @@ void give_trajectories(const PlannedPath& path, const std::vector<double>& times
     }
     named(scene.robots, name).trajectory = std::move(trajectory);
   }
+}
+
+/// The columns of the pose of the body that moves.
+std::array<std::size_t, 7> body_columns(const PlannedPath& path) {
+  std::array<std::size_t, 7> columns = {0, 1, 2, 3, 4, 5, 6};
+  const Joint floating{.name = path.body, .type = JointType::floating};
+  for (std::size_t k = 0; k < columns.size() && !path.robots.empty(); ++k) {
+    const auto found = std::ranges::find(path.joints, coordinate_name(floating, k));
+    columns.at(k) = static_cast<std::size_t>(found - path.joints.begin());
+  }
+  return columns;
 }
 
 void forget_velocities(std::vector<SceneLimits>& limits) {
@@ -121,20 +135,25 @@ PlayedPath played(const PlannedPath& path) {
   if (!path.body.empty()) {
     WaypointMotion motion;
     all = times_of(path, path.waypoints);
+    const std::array<std::size_t, 7> columns = body_columns(path);
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const std::vector<double>& q = path.waypoints[k];
-      append(motion.times, motion.poses, all[k],
-             Pose{{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])});
+      std::array<double, 7> q{};
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        q.at(i) = path.waypoints[k].at(columns.at(i));
+      }
+      append(motion.times, motion.poses, all[k], pose_of_positions(q));
     }
     times = motion.times;
     named(scene.bodies, path.body).motion = std::move(motion);
-  } else {
+  }
+  if (!path.robots.empty()) {
     std::vector<bool> turns_short;
     for (const Turning turning : path.turnings) {
       turns_short.push_back(turning == Turning::shortest);
     }
     const WaypointPath unwound_path = unwound({path.joints, path.waypoints}, turns_short);
     all = times_of(path, unwound_path.waypoints);
+    times.clear();
     std::vector<std::vector<double>> positions;
     for (std::size_t k = 0; k < all.size(); ++k) {
       append(times, positions, all[k], unwound_path.waypoints[k]);

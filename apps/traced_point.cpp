@@ -60,7 +60,8 @@ TracedPoint point_of_robot(const LoadedScene& loaded, const Movers& movers,
                            const std::string& name) {
   const std::size_t robot = number_of(loaded.scene.robots, name);
   const RobotModel& model = loaded.scene.robots[robot].model;
-  const std::string begin = movers.robots.size() == 1 ? "" : name + "/";
+  const bool is_alone = movers.robots.size() == 1 && movers.body.empty();
+  const std::string begin = is_alone ? "" : name + "/";
   const std::size_t member = loaded.robots->first_member(robot) +
                              traced_link(model, moving_joints(model, begin, movers.joints));
   return {.name = loaded.robots->name(member), .member = member};

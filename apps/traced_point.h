@@ -15,9 +15,9 @@ namespace firstcontact::app {
 
 /// The movers of a plan, by the names of its scene.
 struct Movers {
-  std::vector<std::string> robots = {};  ///< Empty where a body moves.
-  std::string body = {};                 ///< Empty where robots move.
-  std::vector<std::string> joints = {};  ///< Planned coordinates; ROBOT/NAME of several robots.
+  std::vector<std::string> robots = {};  ///< Empty where a body moves alone.
+  std::string body = {};                 ///< Empty where robots move alone.
+  std::vector<std::string> joints = {};  ///< Planned coordinates; ROBOT/NAME of several movers.
 };
 
 /// A point that is fixed in a member M of a scene.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -143,6 +144,98 @@ TEST(SeveralRobotsPath, IsProvenInTime) {
   early.clearances.assign(3, 0.0);
   early.clearance = 0.0;
   EXPECT_EQ(verify_path(early).problem_edge, 0u);
+}
+
+/// A part passes a gate that has to open before it, and is closed at the end.
+PlannedPath path_through_gate(const test::ArmFolder& folder) {
+  folder.write("gate.urdf", R"(<robot name="gate"><link name="rail"/>
+    <link name="gate"><collision><geometry><box size="0.1 0.5 0.5"/></geometry></collision></link>
+    <joint name="slide" type="prismatic"><parent link="rail"/><child link="gate"/>
+      <origin xyz="0.1 0 0"/><axis xyz="0 1 0"/><limit lower="0" upper="1" velocity="1" effort="1"/></joint></robot>)");
+  const Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [
+    {"name": "left", "shape": {"box": {"size": [0.00001, 1.8, 4]}}, "pose": {"position": [0, -1.1, 0]}},
+    {"name": "right", "shape": {"box": {"size": [0.00001, 1.8, 4]}}, "pose": {"position": [0, 1.1, 0]}},
+    {"name": "below", "shape": {"box": {"size": [0.00001, 0.41, 1.8]}}, "pose": {"position": [0, 0, -1.1]}},
+    {"name": "above", "shape": {"box": {"size": [0.00001, 0.41, 1.8]}}, "pose": {"position": [0, 0, 1.1]}},
+    {"name": "part", "shape": {"box": {"size": [0.2, 0.1, 0.1]}}, "pose": {"position": [-0.5, 0, 0]}}],
+    "robots": [{"name": "gate", "urdf": "gate.urdf"}],
+    "plan": {"robot": "gate", "body": "part", "time": 30,
+      "goal": {"gate/slide": 0, "part": {"position": [0.5, 0.05, 0], "rpy": [0, 0, 1]}},
+      "box": [[-0.8, -0.8, -0.8], [0.8, 0.8, 0.8]]}})",
+                                  folder.path() / "scene.json");
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, scene.plan.value(), cache);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  EXPECT_EQ(result.verdict, PlanVerdict::proven);
+  return parse_planned_path(write_planned_path(planned_path(plan, plan.options, result)),
+                            folder.path() / "path.json");
+}
+
+TEST(RobotAndBodyPath, IsProvenFromItsFile) {
+  const test::ArmFolder folder;
+  const PlannedPath path = path_through_gate(folder);
+  const PathVerification proof = verify_path(path);
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.edges, path.waypoints.size() - 1);
+  EXPECT_TRUE(proof.reaches_goal);
+  EXPECT_EQ(proof.tested, 4u + 4u + 1u);  // Each with the wall, and with each other.
+  // Straight on the gate is shut.
+  PlannedPath straight = path;
+  straight.waypoints = {path.waypoints.front(), path.waypoints.back()};
+  straight.clearances = {0.0};
+  straight.clearance = 0.0;
+  EXPECT_EQ(verify_path(straight).verdict, ProofVerdict::refuted);
+  // An approximate path measures the distance of both as the planner does.
+  PlannedPath early = path;
+  early.is_proven = false;
+  early.goal.reset();
+  early.waypoints.pop_back();
+  early.clearances.pop_back();
+  early.clearance.reset();
+  for (const auto& clearance : early.clearances) {
+    early.clearance = std::min(early.clearance.value_or(*clearance), *clearance);
+  }
+  ShapeCache cache;
+  const Scene scene = path.scene;
+  PlanQuestion question{.robots = {0}, .body = 4, .goals = {{{"gate/slide", 0.0}}}};
+  const ScenePlan plan = make_scene_plan(scene, question, cache);
+  early.distance_to_goal = plan.plan.space.distance(early.waypoints.back(), path.goals.front());
+  const PathVerification of_early = verify_path(early);
+  EXPECT_EQ(of_early.verdict, ProofVerdict::proven) << of_early.problem;
+}
+
+TEST(RobotAndBodyPath, IsBrokenWhereItContradictsItself) {
+  const test::ArmFolder folder;
+  const PlannedPath path = path_through_gate(folder);
+  ASSERT_EQ(path.joints.at(4), "part/rot_w");
+  const auto problem_of = [&](const auto& change) {
+    PlannedPath changed = path;
+    change(changed);
+    const PathVerification result = verify_path(changed);
+    EXPECT_EQ(result.verdict, ProofVerdict::broken);
+    return result.problem;
+  };
+  const auto drop_last = [](PlannedPath& changed) {
+    changed.joints.pop_back();
+    changed.turnings.pop_back();
+    for (auto* rows : {&changed.waypoints, &changed.goals}) {
+      for (std::vector<double>& row : *rows) {
+        row.pop_back();
+      }
+    }
+  };
+  EXPECT_NE(problem_of(drop_last).find("a part of the pose"), std::string::npos);
+  EXPECT_NE(
+      problem_of([](PlannedPath& changed) { changed.waypoints[1][4] *= 1.5; }).find("length 1"),
+      std::string::npos);
+  EXPECT_NE(problem_of([](PlannedPath& changed) {
+              changed.waypoints.front()[1] -= 0.01;
+            }).find("does not begin where its scene has body"),
+            std::string::npos);
+  EXPECT_NE(problem_of([](PlannedPath& changed) {
+              changed.joints[1] = "part/x";
+            }).find("no number of a pose"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -22,8 +22,8 @@
 #include <firstcontact/planning/detail/link_goals.h>
 #include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/planning/detail/planned_speeds.h>
+#include <firstcontact/planning/detail/resting_scene.h>
 #include <firstcontact/robot_check/robot_scene.h>
-#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/version.h>
@@ -36,148 +36,8 @@ using detail::in_quotes;
 
 [[noreturn]] void refuse_plan(const std::string& what) { throw std::invalid_argument(what); }
 
-bool moves_by_itself(const SceneRobot& robot) {
-  return !std::holds_alternative<FixedMotion>(robot.base) ||
-         (robot.trajectory.points.size() > 1 && !robot.trajectory.joint_names.empty());
-}
-
-bool is_planned(const PlanQuestion& question, std::size_t robot) {
-  return std::ranges::find(question.robots, robot) != question.robots.end();
-}
-
-/// Whether a robot holds a body, whose own motion then has no meaning.
-bool is_held(const Scene& scene, std::size_t body) {
-  return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
-    return std::ranges::any_of(robot.attached, [&](const SceneAttachment& held) {
-      return held.body == body && held.pose;
-    });
-  });
-}
-
-/// The name of something other than the movers that moves; none where all else rests.
-std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& question) {
-  for (std::size_t k = 0; k < scene.robots.size(); ++k) {
-    if (!is_planned(question, k) && moves_by_itself(scene.robots[k])) {
-      return "robot " + in_quotes(scene.robots[k].name);
-    }
-  }
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    if (question.body != k && !is_held(scene, k) &&
-        !std::holds_alternative<FixedMotion>(scene.bodies[k].motion)) {
-      return "body " + in_quotes(scene.bodies[k].name);
-    }
-  }
-  return std::nullopt;
-}
-
-/// Adds the first point of a trajectory to the positions at which the robot rests.
-void rest_at_begin(SceneRobot& robot) {
-  const Trajectory& trajectory = robot.trajectory;
-  for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
-    robot.state[trajectory.joint_names[k]] = trajectory.points.front().positions[k];
-  }
-  robot.trajectory = Trajectory{.joint_names = {}, .points = {TrajectoryPoint{}}};
-}
-
-void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
-  for (const SceneAttachment& held : robot.attached) {
-    if (held.from_time > 0.0 || (held.to_time && *held.to_time < scene.duration)) {
-      refuse_plan("body " + in_quotes(scene.bodies[held.body].name) +
-                  " is held for a part of the time only; a path is planned for what is held all "
-                  "the time");
-    }
-  }
-}
-
-/// Names of the bodies that forces would move in a simulation.
-std::vector<std::string> frozen_by_plan(const Scene& scene, const PlanQuestion& question) {
-  std::vector<std::string> frozen;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    if (scene.bodies[k].free && question.body != k) {
-      frozen.push_back("body " + in_quotes(scene.bodies[k].name) +
-                       " has \"dynamics\": here it rests where it is");
-    }
-  }
-  return frozen;
-}
-
-/// Adds the start of the question to the positions at which its robots rest.
-void rest_at_start(const PlanQuestion& question, Scene& scene) {
-  for (const auto& [name, position] : question.start) {
-    const detail::RobotName split = detail::split_robot_name(scene, question.robots, name);
-    SceneRobot& robot = scene.robots[question.robots[split.which]];
-    robot.state[coordinate_name(robot.model, find_coordinate(robot.model, split.name))] = position;
-  }
-}
-
-/// A pose with a quaternion of length 1, as places of a body have it.
-///
-/// Rounded decimals are scaled. A quaternion of length 1 comes back bit for bit.
-Pose with_unit_quaternion(Pose pose) {
-  constexpr double kUnit = 1e-7;  // Stricter than ConfigurationSpace::defect().
-  if (std::abs(pose.rotation.norm() - 1.0) > kUnit) {
-    pose.rotation.normalize();
-  }
-  return pose;
-}
-
-/// Gives the planned body the pose in which it starts.
-void rest_at_start(const PlanQuestion& question, Body& body) {
-  if (question.start_pose) {
-    body.motion = FixedMotion{*question.start_pose};
-  }
-  auto* at_rest = std::get_if<FixedMotion>(&body.motion);
-  if (at_rest == nullptr) {
-    refuse_plan("body " + in_quotes(body.name) +
-                " moves by itself and is to be planned; give it a \"start\" or a pose at rest");
-  }
-  at_rest->pose = with_unit_quaternion(at_rest->pose);
-}
-
-/// The scene with the movers at rest at their start, and the margin of the question.
-///
-/// All other bodies rest or move by themselves.
-Scene resting_scene(Scene scene, const PlanQuestion& question) {
-  const bool keeps_times = what_moves(scene, question).has_value();
-  for (std::size_t k = 0; k < scene.robots.size(); ++k) {
-    SceneRobot& robot = scene.robots[k];
-    require_all_the_time(scene, robot);
-    for (SceneAttachment& held : robot.attached) {
-      held.to_time.reset();
-    }
-    if (is_planned(question, k) || !moves_by_itself(robot)) {
-      rest_at_begin(robot);
-    }
-    if (is_planned(question, k) && !std::holds_alternative<FixedMotion>(robot.base)) {
-      refuse_plan("the base of robot " + in_quotes(robot.name) +
-                  " moves; a path is planned for a base at rest");
-    }
-    robot.dynamics.reset();
-  }
-  rest_at_start(question, scene);
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    Body& body = scene.bodies[k];
-    if (std::holds_alternative<VertexMotion>(body.motion)) {
-      refuse_plan("body " + in_quotes(body.name) +
-                  " deforms; expected rigid bodies, among which a path can be proven again");
-    }
-    body.free.reset();
-    if (question.body == k) {
-      rest_at_start(question, body);
-    }
-  }
-  scene.options.margin = question.margin.value_or(scene.options.margin);
-  scene.options.start_contacts = StartContacts::report;
-  scene.simulation.reset();
-  scene.plan.reset();
-  if (!keeps_times) {
-    scene.duration = 1.0;
-  }
-  return scene;
-}
-
 void require_movers(const Scene& scene, const PlanQuestion& question) {
-  if (question.robots.empty() != question.body.has_value()) {
+  if (question.robots.empty() && !question.body) {
     refuse_plan("expected a robot or a body that moves");
   }
   const auto is_known = [&](std::size_t robot) { return robot < scene.robots.size(); };
@@ -225,60 +85,66 @@ std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
 }
 
 void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
-  if (const std::optional<std::string> moving = what_moves(scene, question)) {
+  if (const std::optional<std::string> moving = detail::what_moves(scene, question)) {
     plan.times = PlanTimes{scene.duration, detail::planned_speeds(question, plan.space, *moving)};
   }
 }
 
-/// The space of the question's robots.
-ConfigurationSpace space_of_robots(const LoadedScene& loaded, const PlanQuestion& question) {
+/// The spaces of movers, each by itself, and their names.
+struct NamedSpaces {
+  std::vector<std::string> names = {};
+  std::vector<ConfigurationSpace> spaces = {};
+};
+
+/// The spaces of the question's robots.
+NamedSpaces spaces_of_robots(const LoadedScene& loaded, const PlanQuestion& question) {
   const std::vector<std::vector<std::string>> joints =
       detail::planned_joints(loaded.scene, question);
-  std::vector<std::string> names;
-  std::vector<ConfigurationSpace> spaces;
+  NamedSpaces all;
   for (std::size_t k = 0; k < question.robots.size(); ++k) {
     const RobotMotion& motion = loaded.robots->robot_motion(question.robots[k]);
-    names.push_back(loaded.scene.robots[question.robots[k]].name);
+    all.names.push_back(loaded.scene.robots[question.robots[k]].name);
     if (joints[k].empty()) {
-      refuse_plan("robot " + in_quotes(names.back()) + ": no goal names a joint that moves");
+      refuse_plan("robot " + in_quotes(all.names.back()) + ": no goal names a joint that moves");
     }
-    spaces.push_back(ConfigurationSpace::of_joints(motion.model(), joints[k], held_motions(motion),
-                                                   motion.base()));
+    all.spaces.push_back(ConfigurationSpace::of_joints(motion.model(), joints[k],
+                                                       held_motions(motion), motion.base()));
   }
-  ConfigurationSpace space =
-      spaces.size() == 1 ? std::move(spaces.front()) : ConfigurationSpace::joined(names, spaces);
+  return all;
+}
+
+/// Joins the spaces of the movers, within the bounds of the question.
+ConfigurationSpace joined_space(NamedSpaces all, const PlanQuestion& question) {
+  ConfigurationSpace space = all.spaces.size() == 1
+                                 ? std::move(all.spaces.front())
+                                 : ConfigurationSpace::joined(all.names, all.spaces);
   for (const auto& [name, limits] : question.bounds) {
     space.set_limits(name, limits[0], limits[1]);
   }
   return space;
 }
 
-ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question,
-                         const std::stop_token& stop) {
-  ConfigurationSpace space = space_of_robots(loaded, question);
+/// The start of the movers: robots at their states, and the body at its pose.
+Configuration start_of(const Scene& scene, const PlanQuestion& question,
+                       const ConfigurationSpace& space) {
+  const auto robot = [&](std::size_t mover) -> const SceneRobot& {
+    return scene.robots[question.robots[mover]];
+  };
   Configuration start;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    start.push_back(start_of(loaded.scene.robots[question.robots[coordinate.mover]],
-                             {coordinate.joint, coordinate.index}));
+    start.push_back(start_of(robot(coordinate.mover), {coordinate.joint, coordinate.index}));
   }
   for (const SpacePose& pose : space.poses()) {
-    for (std::size_t index = 0; index < 7; ++index) {
-      start.push_back(
-          start_of(loaded.scene.robots[question.robots[pose.mover]], {pose.joint.value(), index}));
+    for (std::size_t index = 0; pose.joint && index < 7; ++index) {
+      start.push_back(start_of(robot(pose.mover), {*pose.joint, index}));
     }
   }
-  std::vector<Configuration> goals;
-  for (const JointPositions& goal : question.goals) {
-    goals.push_back(detail::goal_of(loaded.scene, question, space, goal, start));
+  if (question.body) {
+    const Configuration place =
+        configuration_of(std::get<FixedMotion>(scene.bodies[*question.body].motion).pose);
+    start.insert(start.end(), place.begin(), place.end());
   }
-  PlanScene plan{.scene = *loaded.robots,
-                 .robots = question.robots,
-                 .space = std::move(space),
-                 .contact_pairs = question.contact_pairs};
-  take_times(loaded.scene, question, plan);
-  ScenePlan made{std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
-  detail::add_link_goals(made, question, stop);
-  return made;
+  return start;
 }
 
 /// The scene as its check has it, numbered alike, with the mover as a robot of its own.
@@ -316,30 +182,104 @@ RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
   return made;
 }
 
-ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
+/// The space of the question's body, in its box or in one around the whole scene.
+///
+/// @param goals  of the body
+ConfigurationSpace space_of_body(const LoadedScene& loaded, const PlanQuestion& question,
+                                 const std::vector<Pose>& goals) {
   const std::size_t mover = *question.body;
   const Body& body = loaded.scene.bodies[mover];
-  const Shape& shape = shape_of_body(loaded, mover);
-  const Pose start_pose = std::get<FixedMotion>(body.motion).pose;
-  Configuration start = configuration_of(start_pose);
-  std::vector<Configuration> goals;
-  for (const Pose& goal : question.goal_poses) {
-    goals.push_back(configuration_of(with_unit_quaternion(goal)));
-  }
+  const Pose& start = std::get<FixedMotion>(body.motion).pose;
   const auto space_in = [&](const std::array<Eigen::Vector3d, 2>& box) {
-    return ConfigurationSpace::of_body(body.name, shape, box[0], box[1]);
+    return ConfigurationSpace::of_body(body.name, shape_of_body(loaded, mover), box[0], box[1]);
   };
-  const auto box_of_scene = [&] {
-    const ConfigurationSpace at_start = space_in({start_pose.position, start_pose.position});
-    return detail::box_around(scene_of_body(loaded, mover, at_start, start), question.goal_poses);
-  };
-  ConfigurationSpace space = space_in(question.box ? *question.box : box_of_scene());
-  RobotScene scene = scene_of_body(loaded, mover, space, start);
-  PlanScene plan{.scene = std::move(scene), .robots = {0}, .space = std::move(space)};
-  take_times(loaded.scene, question, plan);
+  if (question.box) {
+    return space_in(*question.box);
+  }
+  const ConfigurationSpace at_start = space_in({start.position, start.position});
+  return space_in(
+      detail::box_around(scene_of_body(loaded, mover, at_start, configuration_of(start)), goals));
+}
+
+/// The robot scene of movers, and the number in it of each.
+struct MovedScene {
+  RobotScene scene;
+  std::vector<std::size_t> robots;
+};
+
+/// The scene of the movers, with the body as a robot of its own, before all others.
+///
+/// @param body  the space of the body; none where robots move alone
+MovedScene moved_scene(const LoadedScene& loaded, const PlanQuestion& question,
+                       const std::optional<ConfigurationSpace>& body) {
+  if (!body) {
+    return {*loaded.robots, question.robots};
+  }
+  const Pose& start = std::get<FixedMotion>(loaded.scene.bodies[*question.body].motion).pose;
+  MovedScene made{scene_of_body(loaded, *question.body, *body, configuration_of(start)), {}};
+  for (const std::size_t robot : question.robots) {
+    made.robots.push_back(robot + 1);
+  }
+  made.robots.push_back(0);
+  return made;
+}
+
+/// Gives members the names of the scene: there a planned body is no robot.
+void take_names(const LoadedScene& loaded, PlanScene& plan) {
   for (std::size_t member = 0; member < plan.scene.size(); ++member) {
     plan.names.push_back(member_name(loaded.scene, member));
   }
+}
+
+/// The plan of robots, or of robots and a body at once.
+ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question,
+                         const std::stop_token& stop) {
+  NamedSpaces all = spaces_of_robots(loaded, question);
+  std::optional<ConfigurationSpace> body;
+  if (question.body) {
+    const Body& moved = loaded.scene.bodies[*question.body];
+    std::vector<Pose> goals;
+    for (const JointPositions& goal : question.goals) {
+      goals.push_back(detail::pose_of_body(loaded.scene, question, goal,
+                                           std::get<FixedMotion>(moved.motion).pose));
+    }
+    body = space_of_body(loaded, question, goals);
+    all.names.push_back(moved.name);
+    all.spaces.push_back(*body);
+  }
+  ConfigurationSpace space = joined_space(std::move(all), question);
+  Configuration start = start_of(loaded.scene, question, space);
+  std::vector<Configuration> goals;
+  for (const JointPositions& goal : question.goals) {
+    goals.push_back(detail::goal_of(loaded.scene, question, space, goal, start));
+  }
+  MovedScene moved = moved_scene(loaded, question, body);
+  PlanScene plan{.scene = std::move(moved.scene),
+                 .robots = std::move(moved.robots),
+                 .space = std::move(space),
+                 .contact_pairs = question.contact_pairs};
+  take_times(loaded.scene, question, plan);
+  if (body) {
+    take_names(loaded, plan);
+  }
+  ScenePlan made{std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
+  detail::add_link_goals(made, question, stop);
+  return made;
+}
+
+ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
+  std::vector<Configuration> goals;
+  for (const Pose& goal : question.goal_poses) {
+    goals.push_back(configuration_of(detail::with_unit_quaternion(goal)));
+  }
+  ConfigurationSpace space = space_of_body(loaded, question, question.goal_poses);
+  MovedScene moved = moved_scene(loaded, question, space);
+  Configuration start = start_of(loaded.scene, question, space);
+  PlanScene plan{.scene = std::move(moved.scene),
+                 .robots = std::move(moved.robots),
+                 .space = std::move(space)};
+  take_times(loaded.scene, question, plan);
+  take_names(loaded, plan);
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
 }
 
@@ -349,15 +289,15 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
                           const std::stop_token& stop) {
   const FloatEnvironmentGuard guard;
   require_movers(scene, question);
-  const std::vector<std::string> frozen = frozen_by_plan(scene, question);
-  Scene resting = resting_scene(std::move(scene), question);
+  const std::vector<std::string> frozen = detail::frozen_by_plan(scene, question);
+  Scene resting = detail::resting_scene(std::move(scene), question);
   LoadedScene loaded = load_scene(resting, cache);
   if (loaded.robots && freeze_held(loaded, resting)) {
     loaded = load_scene(std::move(resting), cache);
   }
   loaded.warnings.insert(loaded.warnings.end(), frozen.begin(), frozen.end());
-  ScenePlan made = question.body ? plan_of_body(std::move(loaded), question)
-                                 : plan_of_robots(std::move(loaded), question, stop);
+  ScenePlan made = question.robots.empty() ? plan_of_body(std::move(loaded), question)
+                                           : plan_of_robots(std::move(loaded), question, stop);
   made.plan.contact_pairs = question.contact_pairs;
   const PlanOptions defaults;
   made.options.planner = question.planner.value_or(defaults.planner);
@@ -425,11 +365,13 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   const Scene& resting = scene.loaded.scene;
   const ConfigurationSpace& space = scene.plan.space;
   path.is_proven = result.verdict == PlanVerdict::proven;
-  for (const std::size_t robot : scene.plan.robots) {
-    path.robots.push_back(scene.plan.scene.robot_name(robot));
-  }
-  if (space.is_body()) {
-    path.body = std::exchange(path.robots, {}).front();
+  for (std::size_t mover = 0; mover < space.mover_count(); ++mover) {
+    const std::string& name = scene.plan.scene.robot_name(scene.plan.robots[mover]);
+    if (space.is_body(mover)) {
+      path.body = name;
+    } else {
+      path.robots.push_back(name);
+    }
   }
   for (std::size_t k = 0; k < space.size() && !space.is_body(); ++k) {
     const bool is_short = k < space.coordinates().size() && space.coordinates()[k].turns_short;

@@ -93,7 +93,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
                                  const ReadingOptions& options) {
   PlannedPath path = parse_planned_path(text, name, options);
   if (!path.body.empty()) {
-    throw ParseError(name, "expected the path of a robot, got that of body " +
+    throw ParseError(name, "expected the path of robots, got that of body " +
                                detail::in_quotes(path.body) + ", which has no joints");
   }
   if (!path.times.empty()) {

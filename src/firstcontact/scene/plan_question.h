@@ -60,12 +60,13 @@ enum class ContactUse {
 /// The words of ContactUse in files and in Python, in this order.
 inline constexpr std::array<const char*, 4> kContactUseWords{"none", "sample", "slide", "both"};
 
-/// A path that is asked for, of robots or of a body of the scene.
+/// A path that is asked for, of robots or of a body of the scene, or of both.
 ///
-/// Coordinates are called as in trajectories; ROBOT/NAME where several robots are planned.
+/// Coordinates are called as in trajectories; ROBOT/NAME where several movers are planned. Beside
+/// robots a body has those of a floating joint: BODY/trans_x and so on, in the world.
 struct PlanQuestion {
-  std::vector<std::size_t> robots = {};  ///< Robots of the scene, each once; or a body.
-  std::optional<std::size_t> body = {};
+  std::vector<std::size_t> robots = {};  ///< Robots of the scene, each once.
+  std::optional<std::size_t> body = {};  ///< A body that moves, alone or at once with robots.
   std::vector<std::string> joints = {};  ///< Coordinates that are planned; without any, those that
                                          ///< goals name.
   JointPositions start = {};  ///< Start of a robot; coordinates that it does not name begin where
@@ -79,8 +80,8 @@ struct PlanQuestion {
   std::vector<LinkGoal> link_goals = {};  ///< Goals beside `goals`; the path ends at any one of
                                           ///< all.
   std::map<std::string, std::array<double, 2>> bounds = {};  ///< [rad or m]  Bounds by coordinate.
-  std::optional<Pose> start_pose = {};  ///< Start of a body; else its pose in the scene.
-  std::vector<Pose> goal_poses = {};    ///< Goals of a body.
+  std::optional<Pose> start_pose = {};  ///< Start of a body alone; else its pose in the scene.
+  std::vector<Pose> goal_poses = {};    ///< Goals of a body alone.
   /// [m]  Corners of the box in which the body's origin stays; by default the box is around the
   /// whole scene.
   std::optional<std::array<Eigen::Vector3d, 2>> box = {};

@@ -55,12 +55,13 @@ struct PlannedPathStatistics {
 /// The contents of a path file. Numbers are those of the file, bit for bit.
 struct PlannedPath {
   bool is_proven = false;  ///< Else approximate: its edges are proven, but it ends before a goal.
-  std::vector<std::string> robots = {};  ///< Robots that move; empty where a body does.
-  std::string body = {};                 ///< Body that moves; empty where robots do.
-  /// Names of the coordinates of waypoints; ROBOT/NAME where several robots move.
+  std::vector<std::string> robots = {};  ///< Robots that move; empty where a body does alone.
+  std::string body = {};                 ///< Body that moves; empty where robots do alone.
+  /// Names of the coordinates of waypoints; ROBOT/NAME where several movers move. Beside robots a
+  /// body has those of a floating joint, BODY/trans_x and so on.
   std::vector<std::string> joints = {};
   std::vector<Turning> turnings = {};  ///< The way of each coordinate.
-  /// At least one. That of a body is a position, then a quaternion w, x, y, z.
+  /// At least one. That of a body alone is a position, then a quaternion w, x, y, z.
   std::vector<std::vector<double>> waypoints = {};
   /// [s]  Time of each waypoint, from 0 to the duration of the scene, where the environment moves;
   /// else empty.

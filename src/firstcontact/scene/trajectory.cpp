@@ -309,6 +309,14 @@ std::size_t position_count(JointType type) {
   return type == JointType::floating ? kFloatingSuffixes.size() : coordinate_count(type);
 }
 
+std::optional<std::size_t> pose_index(std::string_view ending) {
+  const auto found = std::ranges::find_if(
+      kFloatingSuffixes, [&](std::string_view suffix) { return suffix.substr(1) == ending; });
+  return found == kFloatingSuffixes.end()
+             ? std::nullopt
+             : std::optional(static_cast<std::size_t>(found - kFloatingSuffixes.begin()));
+}
+
 Pose pose_of_positions(std::span<const double> positions) {
   return {{positions[0], positions[1], positions[2]},
           Eigen::Quaterniond(positions[3], positions[4], positions[5], positions[6])};

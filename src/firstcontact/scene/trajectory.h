@@ -101,6 +101,10 @@ struct JointCoordinate {
 /// The number of coordinates that trajectories have of a joint: 7 of a floating one.
 [[nodiscard]] FIRSTCONTACT_API std::size_t position_count(JointType type);
 
+/// The index of a floating joint's coordinate by the ending of its name, such as "rot_w"; none for
+/// other texts.
+[[nodiscard]] FIRSTCONTACT_API std::optional<std::size_t> pose_index(std::string_view ending);
+
 /// The pose of seven positions of a floating joint, in their order.
 [[nodiscard]] FIRSTCONTACT_API Pose pose_of_positions(std::span<const double> positions);
 

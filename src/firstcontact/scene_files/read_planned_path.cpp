@@ -128,12 +128,11 @@ class PathReader {
     const JsonObject& object =
         read_.object(value, {{"robot", "robots", "joints", "turning", "body"}});
     if (const JsonValue* body = find(object, "body")) {
-      if (object.size() != 1) {
-        read_.fail(value, "expected \"body\" alone, or a robot");
-      }
       path.body = read_.string(*body, "the name of a body");
       require_name(path.scene.bodies, path.body, *body);
-      return;
+      if (object.size() == 1) {
+        return;
+      }
     }
     const std::vector<std::size_t> robots = take_robots(value, path);
     for (const JsonValue& joint : read_.array(read_.member(value, "joints"), "names of joints")) {
@@ -179,12 +178,26 @@ class PathReader {
     return numbers;
   }
 
+  /// The number of the body that moves; none where robots move alone.
+  static std::optional<std::size_t> body_of(const PlannedPath& path) {
+    const auto found = std::ranges::find(path.scene.bodies, path.body, &Body::name);
+    return path.body.empty()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - path.scene.bodies.begin()));
+  }
+
   /// Refuses the last joint of a path where none of its robots has it.
   void require_joint(const JsonValue& where, std::span<const std::size_t> robots,
                      const PlannedPath& path) const {
     try {
       const detail::RobotName split =
-          detail::split_robot_name(path.scene, robots, path.joints.back());
+          detail::split_mover_name(path.scene, {robots, body_of(path)}, path.joints.back());
+      if (split.which == robots.size()) {
+        if (!pose_index(split.name)) {
+          read_.fail_expected("a number of the pose of the body", where);
+        }
+        return;
+      }
       if (known_coordinate(path.scene.robots[robots[split.which]].model, split.name)) {
         return;
       }
@@ -206,7 +219,7 @@ class PathReader {
   }
 
   std::vector<std::vector<double>> rows(const JsonValue& value, const PlannedPath& path) const {
-    const std::size_t size = path.body.empty() ? path.joints.size() : 7;
+    const std::size_t size = path.robots.empty() ? 7 : path.joints.size();
     std::vector<std::vector<double>> all;
     for (const JsonValue& row : read_.array(value, "an array of waypoints")) {
       std::vector<double> numbers;

@@ -60,7 +60,7 @@ JsonValue rows_of(const std::vector<std::vector<double>>& rows) {
 }
 
 JsonValue mover_of(const PlannedPath& path) {
-  if (!path.body.empty()) {
+  if (path.robots.empty()) {
     return {.value = JsonObject{{"body", text_of(path.body)}}};
   }
   JsonArray joints;
@@ -76,10 +76,14 @@ JsonValue mover_of(const PlannedPath& path) {
     robots.push_back(text_of(robot));
   }
   const bool is_one = robots.size() == 1;
-  return {.value = JsonObject{{is_one ? "robot" : "robots",
-                               is_one ? robots.front() : JsonValue{.value = std::move(robots)}},
-                              {"joints", {.value = std::move(joints)}},
-                              {"turning", {.value = std::move(turnings)}}}};
+  JsonObject mover{{is_one ? "robot" : "robots",
+                    is_one ? robots.front() : JsonValue{.value = std::move(robots)}}};
+  if (!path.body.empty()) {
+    mover.push_back({"body", text_of(path.body)});
+  }
+  mover.push_back({"joints", {.value = std::move(joints)}});
+  mover.push_back({"turning", {.value = std::move(turnings)}});
+  return {.value = std::move(mover)};
 }
 
 JsonValue edges_of(const PlannedPath& path) {

@@ -189,8 +189,10 @@ class PathProof {
       if (goal.size() != path_.waypoints.back().size()) {
         throw BrokenPath("A goal has not as many numbers as a waypoint.");
       }
-      least = std::min(least, moving_.body() ? way_of_body(path_.waypoints.back(), goal)
-                                             : way_of_joints(path_.waypoints.back(), goal));
+      const std::vector<double>& end = path_.waypoints.back();
+      const double of_joints = path_.robots.empty() ? 0.0 : way_of_joints(end, goal);
+      const double of_body = moving_.body() ? way_of_body(end, goal) : 0.0;
+      least = std::min(least, std::hypot(of_joints, of_body));
     }
     return least;
   }
@@ -204,7 +206,7 @@ class PathProof {
         const double angle = angle_of(rotation_in(from, *rest), rotation_in(to, *rest));
         square += angle * angle;
       }
-      if (moving_.is_rotation(k)) {
+      if (moving_.is_rotation(k) || moving_.is_of_body(k)) {
         continue;
       }
       const bool is_short = path_.turnings.at(k) == Turning::shortest;
@@ -233,8 +235,11 @@ class PathProof {
     const Shape& shape = shape_of_body(moving_.loaded(), *moving_.body());
     const Hierarchy& hierarchy = shape.hierarchy();
     const double reach = hierarchy.centre.norm() + hierarchy.radius + shape.radius();
-    const double angle = angle_of(rotation_in(from, {3, 4, 5, 6}), rotation_in(to, {3, 4, 5, 6}));
-    const Eigen::Vector3d way(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+    const std::array<double, 7> a = moving_.body_numbers(from);
+    const std::array<double, 7> b = moving_.body_numbers(to);
+    const double angle = angle_of(Eigen::Vector4d(a[3], a[4], a[5], a[6]).normalized(),
+                                  Eigen::Vector4d(b[3], b[4], b[5], b[6]).normalized());
+    const Eigen::Vector3d way(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
     return way.norm() + reach * angle;
   }
 

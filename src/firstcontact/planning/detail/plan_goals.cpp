@@ -1,6 +1,7 @@
 #include <firstcontact/planning/detail/plan_goals.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -59,6 +60,18 @@ void require_mimicked(const ConfigurationSpace& space, const Configuration& goal
   }
 }
 
+/// The index of a number in the pose of a body.
+///
+/// @param ending  behind the body's name
+std::size_t index_in_pose(const std::string& name, const std::string& ending) {
+  const std::optional<std::size_t> index = pose_index(ending);
+  if (!index) {
+    refuse_goal("expected a number of a pose, such as trans_x or rot_w of a body, got " +
+                in_quotes(name));
+  }
+  return *index;
+}
+
 /// The number of a configuration that is a coordinate; none where it is not planned.
 std::optional<std::size_t> number_in(const ConfigurationSpace& space, std::size_t mover,
                                      const JointCoordinate& coordinate) {
@@ -93,8 +106,10 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
                                                      const PlanQuestion& question) {
   std::vector<std::vector<std::string>> joints(question.robots.size());
   for (const std::string& name : question.joints) {
-    RobotName split = split_robot_name(scene, question.robots, name);
-    joints[split.which].push_back(std::move(split.name));
+    RobotName split = split_mover_name(scene, {question.robots, question.body}, name);
+    if (split.which < joints.size()) {
+      joints[split.which].push_back(std::move(split.name));
+    }
   }
   if (!question.joints.empty()) {
     return joints;
@@ -105,7 +120,10 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
   std::vector<std::set<JointCoordinate>> named(question.robots.size());
   for (const JointPositions& goal : question.goals) {
     for (const auto& [name, position] : goal) {
-      const RobotName split = split_robot_name(scene, question.robots, name);
+      const RobotName split = split_mover_name(scene, {question.robots, question.body}, name);
+      if (split.which == named.size()) {
+        continue;  // A body is planned as a whole.
+      }
       const JointCoordinate coordinate = find_coordinate(model_of(split), split.name);
       const Joint& joint = model_of(split).joints()[coordinate.joint];
       if (joint.type == JointType::floating) {
@@ -116,7 +134,10 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
     }
   }
   for (const LinkGoal& goal : question.link_goals) {
-    const RobotName split = split_robot_name(scene, question.robots, goal.link);
+    const RobotName split = split_mover_name(scene, {question.robots, question.body}, goal.link);
+    if (split.which == named.size()) {
+      refuse_goal("expected a goal of a link of a robot, got " + in_quotes(goal.link));
+    }
     const RobotModel& model = model_of(split);
     add_joints_below(model, link_of_goal(model, goal, split.name), named[split.which]);
   }
@@ -131,6 +152,18 @@ std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
   return joints;
 }
 
+Pose pose_of_body(const Scene& scene, const PlanQuestion& question, const JointPositions& positions,
+                  const Pose& from) {
+  std::array<double, 7> numbers = positions_of_pose(from);
+  for (const auto& [name, position] : positions) {
+    const RobotName split = split_mover_name(scene, {question.robots, question.body}, name);
+    if (split.which == question.robots.size()) {
+      numbers.at(index_in_pose(name, split.name)) = position;
+    }
+  }
+  return pose_of_positions(numbers);
+}
+
 Configuration goal_of(const Scene& scene, const PlanQuestion& question,
                       const ConfigurationSpace& space, const JointPositions& positions,
                       const Configuration& start) {
@@ -142,7 +175,12 @@ Configuration goal_of(const Scene& scene, const PlanQuestion& question,
   Configuration goal = start;
   std::vector<Mimicking> mimics;
   for (const auto& [name, position] : positions) {
-    const RobotName split = split_robot_name(scene, question.robots, name);
+    const RobotName split = split_mover_name(scene, {question.robots, question.body}, name);
+    if (split.which == question.robots.size()) {
+      goal[space.begin_of_pose(space.poses().size() - 1) + index_in_pose(name, split.name)] =
+          position;
+      continue;
+    }
     const RobotModel& model = space.model(split.which);
     const JointCoordinate coordinate = find_coordinate(model, split.name);
     if (const auto number = number_in(space, split.which, coordinate)) {

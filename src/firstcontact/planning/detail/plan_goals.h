@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/plan_question.h>
@@ -26,6 +27,12 @@ namespace firstcontact::detail {
 /// They have the names of the robot. Joints that mimic others are left out.
 [[nodiscard]] std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
                                                                    const PlanQuestion& question);
+
+/// The pose of the body that moves beside robots: numbers that are not named are those of `from`.
+///
+/// @throws std::invalid_argument  names a number that no pose has
+[[nodiscard]] Pose pose_of_body(const Scene& scene, const PlanQuestion& question,
+                                const JointPositions& positions, const Pose& from);
 
 /// The configuration of a goal: coordinates that it does not name keep their start.
 ///

@@ -11,6 +11,18 @@
 
 namespace firstcontact::detail {
 
+JointPositions pose_positions(const Joint& floating, const JsonValue& value,
+                              const JsonReader& read) {
+  Pose pose = read_pose(value, read);
+  pose.rotation.normalize();
+  const std::array<double, 7> numbers = positions_of_pose(pose);
+  JointPositions positions;
+  for (std::size_t index = 0; index < numbers.size(); ++index) {
+    positions[coordinate_name(floating, index)] = numbers.at(index);
+  }
+  return positions;
+}
+
 std::optional<JointPositions> floating_positions(const RobotModel& robot, std::string_view name,
                                                  const JsonValue& value, const JsonReader& read) {
   const auto joint = robot.find_joint(name);
@@ -18,14 +30,7 @@ std::optional<JointPositions> floating_positions(const RobotModel& robot, std::s
       !std::holds_alternative<JsonObject>(value.value)) {
     return std::nullopt;
   }
-  Pose pose = read_pose(value, read);
-  pose.rotation.normalize();
-  const std::array<double, 7> numbers = positions_of_pose(pose);
-  JointPositions positions;
-  for (std::size_t index = 0; index < numbers.size(); ++index) {
-    positions[coordinate_name(robot, {*joint, index})] = numbers.at(index);
-  }
-  return positions;
+  return pose_positions(robot.joints()[*joint], value, read);
 }
 
 }  // namespace firstcontact::detail

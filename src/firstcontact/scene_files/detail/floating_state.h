@@ -12,6 +12,12 @@
 
 namespace firstcontact::detail {
 
+/// Reads a pose as seven positions of a floating joint by name, the quaternion of length 1.
+///
+/// @throws ParseError
+[[nodiscard]] JointPositions pose_positions(const Joint& floating, const JsonValue& value,
+                                            const JsonReader& read);
+
 /// Reads the entry of a state that is the pose of a floating joint in its frame: seven positions by
 /// name, the quaternion of length 1. None for other joints, and for an entry that is no object.
 ///

@@ -33,7 +33,7 @@ class PlanReader {
     take_mover(value, object, plan);
     take_options(object, plan);
     take_contact_pairs(object, plan);
-    if (plan.body) {
+    if (plan.robots.empty()) {
       take_body(object, plan);
     } else {
       take_joints(object, plan);
@@ -47,15 +47,18 @@ class PlanReader {
     const JsonValue* robot = find(object, "robot");
     const JsonValue* robots = find(object, "robots");
     const JsonValue* body = find(object, "body");
-    if ((robot != nullptr) + (robots != nullptr) + (body != nullptr) > 1) {
-      read_.fail(value, "expected one of \"robot\", \"robots\" and \"body\", got several");
+    if (robot != nullptr && robots != nullptr) {
+      read_.fail(value, "expected either \"robot\" or \"robots\", got both");
     }
     if (body != nullptr) {
       plan.body = numbered(*body, "body", scene_.bodies);
-    } else if (robot != nullptr) {
+    }
+    if (robot != nullptr) {
       plan.robots = {numbered(*robot, "robot", scene_.robots)};
     } else if (robots != nullptr) {
       take_robots(*robots, plan);
+    } else if (body != nullptr) {
+      // It moves alone.
     } else if (scene_.robots.size() == 1) {
       plan.robots = {0};
     } else {
@@ -71,7 +74,7 @@ class PlanReader {
       }
       plan.robots.push_back(robot);
     }
-    if (plan.robots.size() < 2) {
+    if (plan.robots.size() < 2 && !plan.body) {
       read_.fail_expected("at least two robots; a single one is \"robot\"", value);
     }
   }
@@ -167,12 +170,17 @@ class PlanReader {
   }
 
   void take_joints(const JsonObject& object, PlanQuestion& plan) const {
-    if (const JsonValue* box = find(object, "box")) {
+    const JsonValue* box = find(object, "box");
+    if (box != nullptr && !plan.body) {
       read_.fail(*box, "\"box\" is of a body; a robot has \"bounds\"");
     }
+    take_box(object, plan);
     if (const JsonValue* joints = find(object, "joints")) {
       for (const JsonValue& joint : read_.array(*joints, "an array of names of joints")) {
         const std::string& name = read_.string(joint, "the name of a joint");
+        if (is_body(name, plan)) {
+          continue;  // It is planned in any case.
+        }
         plan.joints.push_back(is_floating(joint, name, plan) ? name
                                                              : known_joint(joint, name, plan));
       }
@@ -234,6 +242,10 @@ class PlanReader {
         plan.speeds[key] = speed_of(read_.member(*speeds, key));
       }
     }
+    take_box(object, plan);
+  }
+
+  void take_box(const JsonObject& object, PlanQuestion& plan) const {
     if (const JsonValue* box = find(object, "box")) {
       const JsonArray& corners = read_.array(*box, "two corners");
       if (corners.size() != 2) {
@@ -262,7 +274,7 @@ class PlanReader {
       read_.fail_expected("at least one goal", *goals);
     }
     for (const JsonValue* one : all) {
-      if (plan.body) {
+      if (plan.robots.empty()) {
         plan.goal_poses.push_back(read_pose(*one, read_));
       } else if (is_link_goal(*one)) {
         plan.link_goals.push_back(link_goal(*one, plan));
@@ -286,6 +298,9 @@ class PlanReader {
     const JsonValue& link = read_.member(value, "link");
     goal.link = read_.string(link, "the name of a link");
     const RobotName split = split_name(link, goal.link, plan);
+    if (split.which == plan.robots.size()) {
+      read_.fail(link, "expected a link of a robot, got " + in_quotes(goal.link));
+    }
     const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
     if (!model.find_link(split.name)) {
       std::vector<std::string_view> names;
@@ -312,22 +327,33 @@ class PlanReader {
   RobotName split_name(const JsonValue& where, const std::string& name,
                        const PlanQuestion& plan) const {
     try {
-      return split_robot_name(scene_, plan.robots, name);
+      return split_mover_name(scene_, {plan.robots, plan.body}, name);
     } catch (const std::invalid_argument& error) {
       read_.fail(where, error.what());
     }
   }
 
-  /// A name within one of the robots, in the form of the question.
+  /// A name within one of the movers, in the form of the question.
   std::string full_name(const PlanQuestion& plan, std::size_t which,
                         const std::string& name) const {
-    return plan.robots.size() == 1 ? name : scene_.robots[plan.robots[which]].name + "/" + name;
+    return joined_mover_name(scene_, {plan.robots, plan.body}, which, name);
   }
 
-  /// Whether a name is that of a floating joint, whose pose is planned as a whole.
+  /// Whether a name is that of the body which moves beside robots.
+  [[nodiscard]] bool is_body(const std::string& name, const PlanQuestion& plan) const {
+    return plan.body && scene_.bodies[*plan.body].name == name;
+  }
+
+  /// Whether a name is that of a floating joint or of the body, whose pose is planned as a whole.
   bool is_floating(const JsonValue& where, const std::string& name,
                    const PlanQuestion& plan) const {
+    if (is_body(name, plan)) {
+      return true;
+    }
     const RobotName split = split_name(where, name, plan);
+    if (split.which == plan.robots.size()) {
+      return false;
+    }
     const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
     const auto joint = model.find_joint(split.name);
     return joint && model.joints()[*joint].type == JointType::floating;
@@ -336,6 +362,14 @@ class PlanReader {
   std::string known_joint(const JsonValue& where, const std::string& name,
                           const PlanQuestion& plan) const {
     const RobotName split = split_name(where, name, plan);
+    if (split.which == plan.robots.size()) {
+      if (!pose_index(split.name)) {
+        read_.fail(where,
+                   "expected a number of the pose of the body, such as trans_x or rot_w, got " +
+                       in_quotes(name));
+      }
+      return name;
+    }
     const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
     try {
       return full_name(plan, split.which,
@@ -360,6 +394,9 @@ class PlanReader {
       }
     } else if (const auto* name = std::get_if<std::string>(&value.value)) {
       const RobotName split = split_name(value, *name, plan);
+      if (split.which == plan.robots.size()) {
+        read_.fail(value, "expected a state of a robot, got " + in_quotes(*name));
+      }
       const SceneRobot& robot = scene_.robots[plan.robots[split.which]];
       try {
         for (const auto& [joint, position] :
@@ -371,21 +408,36 @@ class PlanReader {
       }
     } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
       for (const auto& [joint, position] : *object) {
-        const RobotName split = split_name(position, joint, plan);
-        const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
-        if (const auto pose = floating_positions(model, split.name, position, read_)) {
-          for (const auto& [coordinate, number] : *pose) {
-            positions[full_name(plan, split.which, coordinate)] = number;
-          }
-        } else {
-          positions[known_joint(position, joint, plan)] = read_.number(position);
-        }
+        add_position(joint, position, plan, positions);
       }
     } else {
       read_.fail_expected(
           "positions by joint, such as {\"joint\": 0.1}, or the name of a state of the SRDF",
           value);
     }
+  }
+
+  /// Adds the position of a coordinate, or the pose of a floating joint or of the body.
+  void add_position(const std::string& name, const JsonValue& value, const PlanQuestion& plan,
+                    JointPositions& positions) const {
+    if (is_body(name, plan)) {
+      const Joint floating{.name = name, .type = JointType::floating};
+      for (const auto& [coordinate, number] : pose_positions(floating, value, read_)) {
+        positions[coordinate] = number;
+      }
+      return;
+    }
+    const RobotName split = split_name(value, name, plan);
+    if (split.which < plan.robots.size()) {
+      const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
+      if (const auto pose = floating_positions(model, split.name, value, read_)) {
+        for (const auto& [coordinate, number] : *pose) {
+          positions[full_name(plan, split.which, coordinate)] = number;
+        }
+        return;
+      }
+    }
+    positions[known_joint(value, name, plan)] = read_.number(value);
   }
 
   const Scene& scene_;

@@ -141,11 +141,29 @@ MovingScene::MovingScene(const PlannedPath& path) : path_(path), loaded_(load(pa
   } else {
     require_times();
   }
-  if (path.body.empty()) {
+  moves_.assign(member_count(loaded_.scene), false);
+  is_rotation_.assign(path.joints.size(), false);
+  if (!path.body.empty()) {
+    find_body();
+  }
+  if (!path.robots.empty()) {
     move_robots();
-  } else {
+  }
+  if (!path.body.empty()) {
     move_body();
   }
+}
+
+std::array<double, 7> MovingScene::body_numbers(const std::vector<double>& row) const {
+  std::array<double, 7> numbers{};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    numbers.at(k) = row.at(body_columns_.at(k));
+  }
+  return numbers;
+}
+
+bool MovingScene::is_of_body(std::size_t column) const {
+  return body_ && std::ranges::find(body_columns_, column) != body_columns_.end();
 }
 
 std::optional<std::array<std::size_t, 4>> MovingScene::rotation_columns(std::size_t column) const {
@@ -191,14 +209,29 @@ void MovingScene::move_robots() {
       found->trajectory.points.push_back({.time = time(k), .positions = {}});
     }
   }
-  is_rotation_.assign(path_.joints.size(), false);
+  std::array<std::optional<std::size_t>, 7> of_body;
   for (std::size_t column = 0; column < path_.joints.size(); ++column) {
-    const RobotName split = split_robot_name(scene, numbers, path_.joints[column]);
+    const RobotName split = split_mover_name(scene, {numbers, body_}, path_.joints[column]);
+    if (split.which == numbers.size()) {
+      const std::optional<std::size_t> index = pose_index(split.name);
+      if (!index || of_body.at(*index)) {
+        throw BrokenPath("The path has " + in_quotes(path_.joints[column]) +
+                         ", which is no number of a pose, or stands twice.");
+      }
+      of_body.at(*index) = column;
+      continue;
+    }
     const std::size_t number = numbers[split.which];
     move_joint(column, scene.robots[number], number, split.name);
   }
   find_rotations();
-  moves_.assign(member_count(scene), false);
+  for (std::size_t k = 0; k < of_body.size() && body_; ++k) {
+    if (!of_body.at(k)) {
+      throw BrokenPath("The path has a part of the pose of body " + in_quotes(path_.body) +
+                       " only.");
+    }
+    body_columns_.at(k) = *of_body.at(k);
+  }
   for (const std::size_t number : numbers) {
     if (scene.robots[number].trajectory.joint_names.empty()) {
       throw BrokenPath("The path moves no joint of robot " + in_quotes(scene.robots[number].name) +
@@ -278,14 +311,19 @@ void MovingScene::find_moving(const SceneRobot& robot, std::size_t number) {
   }
 }
 
-void MovingScene::move_body() {
-  Scene& scene = loaded_.scene;
-  const auto is_it = [&](const Body& body) { return body.name == path_.body; };
-  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_it);
-  if (body == scene.bodies.end()) {
+void MovingScene::find_body() {
+  const std::vector<Body>& bodies = loaded_.scene.bodies;
+  const auto body = std::ranges::find(bodies, path_.body, &Body::name);
+  if (body == bodies.end()) {
     throw BrokenPath("The scene has no body " + in_quotes(path_.body) + ".");
   }
-  const auto number = static_cast<std::size_t>(body - scene.bodies.begin());
+  body_ = static_cast<std::size_t>(body - bodies.begin());
+}
+
+void MovingScene::move_body() {
+  Scene& scene = loaded_.scene;
+  const std::size_t number = *body_;
+  Body* const body = &scene.bodies[number];
   for (const SceneRobot& robot : scene.robots) {
     for (const SceneAttachment& held : robot.attached) {
       if (held.body == number) {
@@ -296,23 +334,21 @@ void MovingScene::move_body() {
   require_own_rest(std::holds_alternative<FixedMotion>(body->motion), body->name);
   require_begin(std::get<FixedMotion>(body->motion).pose);
   WaypointMotion motion;
-  for (const std::vector<double>& q : path_.waypoints) {
+  for (const std::vector<double>& row : path_.waypoints) {
+    const std::array<double, 7> q = body_numbers(row);
     if (!(std::abs(std::hypot(std::hypot(q.at(3), q.at(4)), std::hypot(q.at(5), q.at(6))) - 1.0) <=
           kUnit)) {
       throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
     }
     motion.times.push_back(time(motion.times.size()));
-    motion.poses.push_back(
-        {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
+    motion.poses.push_back(pose_of_positions(q));
   }
   body->motion = motion;
-  moves_.assign(member_count(scene), false);
   moves_[number] = true;
-  body_ = number;
 }
 
 void MovingScene::require_begin(const Pose& pose) const {
-  const std::vector<double>& q = path_.waypoints.front();
+  const std::array<double, 7> q = body_numbers(path_.waypoints.front());
   const Eigen::Quaterniond& r = pose.rotation;
   if (Eigen::Vector3d(q.at(0), q.at(1), q.at(2)) != pose.position ||
       Eigen::Vector4d(q.at(3), q.at(4), q.at(5), q.at(6)) !=

@@ -37,7 +37,7 @@ class MovingScene {
   [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
   [[nodiscard]] const std::map<std::size_t, Turnings>& turnings() const { return turnings_; }
 
-  /// The body that moves; none where a robot moves.
+  /// The body that moves; none where robots move alone.
   [[nodiscard]] std::optional<std::size_t> body() const { return body_; }
 
   /// Whether a member moves along edges.
@@ -50,6 +50,12 @@ class MovingScene {
   [[nodiscard]] std::optional<std::array<std::size_t, 4>> rotation_columns(
       std::size_t column) const;
 
+  /// The pose of the body in a row of the path, bit for bit.
+  [[nodiscard]] std::array<double, 7> body_numbers(const std::vector<double>& row) const;
+
+  /// Whether a column of the waypoints is a number of the body's pose.
+  [[nodiscard]] bool is_of_body(std::size_t column) const;
+
   /// [s]  The time of a waypoint.
   [[nodiscard]] double time(std::size_t waypoint) const;
 
@@ -58,6 +64,7 @@ class MovingScene {
   void move_robots();
   void move_joint(std::size_t column, SceneRobot& robot, std::size_t number,
                   const std::string& name);
+  void find_body();
   void find_rotations();
   void find_moving(const SceneRobot& robot, std::size_t number);
   void move_body();
@@ -70,6 +77,7 @@ class MovingScene {
   std::vector<bool> is_rotation_;  // For each column, where robots move.
   std::map<std::size_t, std::array<std::size_t, 4>> rotations_;  // By their first column.
   std::optional<std::size_t> body_ = {};
+  std::array<std::size_t, 7> body_columns_ = {0, 1, 2, 3, 4, 5, 6};  // Where a body moves.
 };
 
 }  // namespace firstcontact::detail
