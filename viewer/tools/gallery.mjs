@@ -97,6 +97,21 @@ all.push(
     keys: ["b"],
     t: 0.4,
   },
+  {
+    name: "conveyor",
+    ...plan("demo/plans/conveyor.json"),
+    theme: "light",
+    nearer: 3,
+    t: 0.725,
+  },
+  { name: "revolving_door", ...plan("demo/plans/revolving_door.json"), theme: "dark", t: 0.45 },
+  {
+    name: "arm_around_arm",
+    ...plan("demo/plans/arm_around_arm.json"),
+    theme: "light",
+    nearer: 2,
+    t: 0.383,
+  },
 );
 const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
