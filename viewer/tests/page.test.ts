@@ -558,7 +558,12 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await timeOf(page)).toBeCloseTo(0.5, 2);
     expect(await joints.textContent()).toContain("57.3°");
     await joints.getByRole("button", { name: "elbow" }).click();
-    expect(await page.locator(".chart-title").textContent()).toBe("elbow [rad]");
+    const title = page.locator(".chart-title");
+    expect(await title.textContent()).toBe("elbow [rad]positionvelocity");
+    await title.getByRole("button", { name: "velocity" }).click();
+    expect(await title.textContent()).toMatch(/^elbow, velocity \[rad\/s\]/);
+    await title.getByRole("button", { name: "position" }).click();
+    expect(await title.textContent()).toMatch(/^elbow \[rad\]/);
     await page.getByRole("button", { name: "Back to the gap" }).click();
     expect(await page.locator(".chart-title").textContent()).toBe("gap [mm]");
     const warnings = page.getByRole("region", { name: "Warnings" });
