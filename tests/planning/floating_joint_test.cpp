@@ -38,13 +38,13 @@ constexpr const char* kDrone = R"(<robot name="drone"><link name="world"/>
   <joint name="elbow" type="revolute"><parent link="hull"/><child link="arm"/><origin xyz="0.33 0 0"/>
     <axis xyz="0 0 1"/><limit lower="-1.5" upper="1.5" velocity="1" effort="1"/></joint></robot>)";
 
-constexpr const char* kWindow = R"("bodies": [
+constexpr const char* kDroneWindow = R"("bodies": [
   {"name": "left", "shape": {"box": {"size": [0.00001, 1.85, 4]}}, "pose": {"position": [0, -1.075, 0]}},
   {"name": "right", "shape": {"box": {"size": [0.00001, 1.85, 4]}}, "pose": {"position": [0, 1.075, 0]}},
   {"name": "below", "shape": {"box": {"size": [0.00001, 0.31, 1.85]}}, "pose": {"position": [0, 0, -1.075]}},
   {"name": "above", "shape": {"box": {"size": [0.00001, 0.31, 1.85]}}, "pose": {"position": [0, 0, 1.075]}}])";
 
-constexpr const char* kBounds =
+constexpr const char* kDroneBounds =
     R"("bounds": {"base/trans_x": [-1.5, 1.5], "base/trans_y": [-1, 1], "base/trans_z": [-1, 1]})";
 
 class DroneFile : public ::testing::Test {
@@ -60,7 +60,7 @@ class DroneFile : public ::testing::Test {
 
   /// @param plan  the keys of the question
   [[nodiscard]] ScenePlan plan_with(const std::string& plan) const {
-    const Scene scene = parse_scene(std::string(R"({"firstcontact": 1, )") + kWindow +
+    const Scene scene = parse_scene(std::string(R"({"firstcontact": 1, )") + kDroneWindow +
                                         R"(, "robots": [{"name": "d", "urdf": "drone.urdf",
             "state": {"base": {"position": [-1, 0, 0], "rpy": [0, 0, 1.5707963267948966]}}}],
           "plan": {)" + plan + "}}",
@@ -84,13 +84,13 @@ class DroneFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-std::string through_window(const std::string& more = "") {
+std::string drone_through_window(const std::string& more = "") {
   return std::string(R"("goal": {"base": {"position": [1, 0.1, 0]}, "elbow": 0.5}, "time": 20, )") +
-         kBounds + more;
+         kDroneBounds + more;
 }
 
 TEST_F(DroneFile, IsPlannedThroughAWindow) {
-  const ScenePlan plan = plan_with(through_window());
+  const ScenePlan plan = plan_with(drone_through_window());
   const ConfigurationSpace& space = plan.plan.space;
   ASSERT_EQ(space.size(), 8u);
   EXPECT_FALSE(space.is_body());
@@ -126,15 +126,15 @@ TEST_F(DroneFile, IsPlannedThroughAWindow) {
 }
 
 TEST_F(DroneFile, SlidesAlongContacts) {
-  const ScenePlan plan = plan_with(through_window(R"(, "contacts": "both", "seed": 2)"));
+  const ScenePlan plan = plan_with(drone_through_window(R"(, "contacts": "both", "seed": 2)"));
   EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
             PlanVerdict::proven);
 }
 
 // The pose moves with the base alone: joints that no goal names rest.
 TEST_F(DroneFile, PlansThePoseAlone) {
-  const ScenePlan plan =
-      plan_with(std::string(R"("goal": {"base/trans_x": -0.9, "base/trans_z": 0.5}, )") + kBounds);
+  const ScenePlan plan = plan_with(
+      std::string(R"("goal": {"base/trans_x": -0.9, "base/trans_z": 0.5}, )") + kDroneBounds);
   ASSERT_EQ(plan.plan.space.size(), 7u);
   EXPECT_FALSE(plan.plan.space.is_body());
   EXPECT_EQ(plan.goals[0][3], plan.start[3]);
@@ -143,15 +143,17 @@ TEST_F(DroneFile, PlansThePoseAlone) {
 }
 
 TEST_F(DroneFile, MovesInTime) {
-  const std::string plan = through_window(R"(, "speeds": {"base/linear": 1, "base/angular": 2})");
-  const std::string text = std::string(R"({"firstcontact": 1, "duration": 20, )") +
-                           std::string(kWindow).substr(0, std::string(kWindow).size() - 1) +
-                           R"(, {"name": "shutter", "shape": {"box": {"size": [0.1, 0.3, 0.3]}},
+  const std::string plan =
+      drone_through_window(R"(, "speeds": {"base/linear": 1, "base/angular": 2})");
+  const std::string text =
+      std::string(R"({"firstcontact": 1, "duration": 20, )") +
+      std::string(kDroneWindow).substr(0, std::string(kDroneWindow).size() - 1) +
+      R"(, {"name": "shutter", "shape": {"box": {"size": [0.1, 0.3, 0.3]}},
         "motion": {"type": "waypoints", "times": [0, 5, 8, 20], "poses": [{"position": [0, 0, 0]},
         {"position": [0, 0, 0]}, {"position": [0.2, 0, 3]}, {"position": [0.2, 0, 3]}]}}],
         "robots": [{"name": "d", "urdf": "drone.urdf", "state": {"base/trans_x": -1}}],
-        "plan": {)" + plan +
-                           "}}";
+        "plan": {)" +
+      plan + "}}";
   const Scene scene = parse_scene(text, folder_ / "scene.json", 1, {});
   ShapeCache cache;
   const ScenePlan made = make_scene_plan(scene, *scene.plan, cache);
@@ -171,13 +173,13 @@ TEST_F(DroneFile, RefusesWhatIsNoPose) {
   EXPECT_NE(refusal(R"("goal": {"base": {"position": [1, 0, 0]}})")
                 .find("\"base/trans_x\" slides without limits; give it bounds"),
             std::string::npos);
-  EXPECT_NE(refusal(through_window(R"(, "joints": ["base/trans_x", "elbow"])"))
+  EXPECT_NE(refusal(drone_through_window(R"(, "joints": ["base/trans_x", "elbow"])"))
                 .find("planned as a whole, by its name \"base\""),
             std::string::npos);
-  EXPECT_NE(refusal(std::string(R"("goal": {"base/rot_x": 0.5}, )") + kBounds)
+  EXPECT_NE(refusal(std::string(R"("goal": {"base/rot_x": 0.5}, )") + kDroneBounds)
                 .find("quaternion of length 1"),
             std::string::npos);
-  EXPECT_NE(refusal(std::string(R"("goal": {"base": {"position": [1.6, 0, 0]}}, )") + kBounds)
+  EXPECT_NE(refusal(std::string(R"("goal": {"base": {"position": [1.6, 0, 0]}}, )") + kDroneBounds)
                 .find("outside of the box"),
             std::string::npos);
   EXPECT_NE(refusal(R"("goal": {"elbow": 0.1}, "bounds": {"base/trans_x": [0, 1]})")
@@ -197,7 +199,7 @@ double turn_between(const Configuration& a, const Configuration& b, std::size_t 
 
 // The path length is a metric; interpolation runs at a constant rate; pieces keep the ends.
 TEST_F(DroneFile, HasAMetricAndConstantRates) {
-  const ScenePlan plan = plan_with(through_window());
+  const ScenePlan plan = plan_with(drone_through_window());
   const ConfigurationSpace& space = plan.plan.space;
   RandomNumbers random(5);
   for (int k = 0; k < 500; ++k) {
@@ -223,7 +225,7 @@ TEST_F(DroneFile, HasAMetricAndConstantRates) {
 
 // A piece to a rounded place departs from its edge by no more than the bound.
 TEST_F(DroneFile, BoundsTheDepartureOfRoundedPieces) {
-  const ScenePlan plan = plan_with(through_window());
+  const ScenePlan plan = plan_with(drone_through_window());
   const ConfigurationSpace& space = plan.plan.space;
   RandomNumbers random(6);
   PlanScene scene = plan.plan;

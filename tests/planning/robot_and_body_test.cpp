@@ -23,7 +23,7 @@ namespace firstcontact::test {
 namespace {
 
 // A wall of 10 um with a window of 0.4 m, which a gate of 0.5 m covers 5 cm behind it.
-constexpr const char* kWall = R"("bodies": [
+constexpr const char* kGatedWall = R"("bodies": [
   {"name": "left", "shape": {"box": {"size": [0.00001, 1.8, 4]}}, "pose": {"position": [0, -1.1, 0]}},
   {"name": "right", "shape": {"box": {"size": [0.00001, 1.8, 4]}}, "pose": {"position": [0, 1.1, 0]}},
   {"name": "below", "shape": {"box": {"size": [0.00001, 0.41, 1.8]}}, "pose": {"position": [0, 0, -1.1]}},
@@ -31,7 +31,7 @@ constexpr const char* kWall = R"("bodies": [
   {"name": "part", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [-0.5, 0, 0]}}],
   "robots": [{"name": "gate", "urdf": "gate.urdf"}])";
 
-constexpr const char* kPlan = R"("robot": "gate", "body": "part",
+constexpr const char* kPlanOfGate = R"("robot": "gate", "body": "part",
   "goal": {"gate/slide": 0, "part": {"position": [0.5, 0.05, 0]}},
   "box": [[-0.8, -0.8, -0.8], [0.8, 0.8, 0.8]], "time": 30)";
 
@@ -51,9 +51,9 @@ class GateFile : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] ScenePlan plan_with(const std::string& plan) const {
-    const Scene scene =
-        parse_scene(std::string(R"({"firstcontact": 1, )") + kWall + R"(, "plan": {)" + plan + "}}",
-                    folder_ / "scene.json", 1, {});
+    const Scene scene = parse_scene(
+        std::string(R"({"firstcontact": 1, )") + kGatedWall + R"(, "plan": {)" + plan + "}}",
+        folder_ / "scene.json", 1, {});
     ShapeCache cache;
     return make_scene_plan(scene, *scene.plan, cache);
   }
@@ -74,7 +74,7 @@ class GateFile : public ::testing::Test {
 };
 
 TEST_F(GateFile, MovesBothAtOnce) {
-  const ScenePlan plan = plan_with(kPlan);
+  const ScenePlan plan = plan_with(kPlanOfGate);
   const ConfigurationSpace& space = plan.plan.space;
   ASSERT_EQ(space.size(), 8u);
   EXPECT_EQ(space.mover_count(), 2u);
@@ -108,14 +108,14 @@ TEST_F(GateFile, MovesBothAtOnce) {
 }
 
 TEST_F(GateFile, SlidesAlongContacts) {
-  const ScenePlan plan = plan_with(std::string(kPlan) + R"(, "contacts": "both")");
+  const ScenePlan plan = plan_with(std::string(kPlanOfGate) + R"(, "contacts": "both")");
   EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
             PlanVerdict::proven);
 }
 
 TEST_F(GateFile, StartsWhereTheQuestionHasThem) {
-  const ScenePlan plan =
-      plan_with(std::string(kPlan) + R"(, "start": {"gate/slide": 0.5, "part/trans_x": -0.4})");
+  const ScenePlan plan = plan_with(std::string(kPlanOfGate) +
+                                   R"(, "start": {"gate/slide": 0.5, "part/trans_x": -0.4})");
   EXPECT_EQ(plan.start, (Configuration{0.5, -0.4, 0, 0, 1, 0, 0, 0}));
 }
 
@@ -131,7 +131,7 @@ TEST_F(GateFile, RefusesNamesOfNoMover) {
   EXPECT_NE(refusal(with_goal(R"({"gate/slide": 0, "part/rot_x": 1})")).find("length 1"),
             std::string::npos);
   // It starts in the gate.
-  EXPECT_NE(refusal(std::string(kPlan) + R"(, "start": {"part/trans_x": 0.1})")
+  EXPECT_NE(refusal(std::string(kPlanOfGate) + R"(, "start": {"part/trans_x": 0.1})")
                 .find("\"part\" and \"gate/gate\" touch"),
             std::string::npos);
 }

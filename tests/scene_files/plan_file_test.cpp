@@ -159,10 +159,10 @@ TEST_F(PlanFile, SaysWhatMoves) {
   expect_plan_messages(
       "",
       {{R"("goal": {})", ": expected \"robot\", \"robots\" or \"body\", the name of what moves"},
-       {R"("body": "peg", "robot": "arm")" + goal,
-        ": expected one of \"robot\", \"robots\" and \"body\", got several"},
+       {R"("robot": "arm", "robots": ["arm"])" + goal,
+        ": expected either \"robot\" or \"robots\", got both"},
        {R"("body": "peg", "robots": [])" + goal,
-        ": expected one of \"robot\", \"robots\" and \"body\", got several"},
+        ".robots: expected at least two robots; a single one is \"robot\", got an array of 0"},
        {R"("body": 1)" + goal, ".body: expected the name of a body, got 1"},
        {R"("body": "peq")" + goal,
         ".body: expected the name of a body of the scene, got \"peq\"; did you mean \"peg\"?"},

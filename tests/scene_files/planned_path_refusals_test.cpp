@@ -183,7 +183,7 @@ TEST_F(PlannedPathFile, SaysWhatDoesNotBelongTogether) {
         "moves.body: expected a name that the scene has, got \"pog\""},
        {R"({"body":"peg"})", R"({"body":""})", "moves.body: expected the name of a body, got \"\""},
        {R"({"body":"peg"})", R"({"body":"peg","robot":"arm"})",
-        "moves: expected \"body\" alone, or a robot"},
+        "moves.robot: expected a name that the scene has, got \"arm\""},
        {R"({"body":"peg"})", "{}", "moves: expected a key \"robot\", got none"},
        {R"({"body":"peg"})", "[]",
         "moves: expected an object with \"robot\", \"robots\", \"joints\", \"turning\", \"body\", "

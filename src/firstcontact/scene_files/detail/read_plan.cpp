@@ -74,7 +74,7 @@ class PlanReader {
       }
       plan.robots.push_back(robot);
     }
-    if (plan.robots.size() < 2 && !plan.body) {
+    if (plan.robots.size() < 2) {
       read_.fail_expected("at least two robots; a single one is \"robot\"", value);
     }
   }
