@@ -146,7 +146,7 @@ TEST_F(DroneFile, MovesInTime) {
   const std::string plan =
       drone_through_window(R"(, "speeds": {"base/linear": 1, "base/angular": 2})");
   const std::string text =
-      std::string(R"({"firstcontact": 1, "duration": 20, )") +
+      std::string(R"({"firstcontact": 1, "options": {"duration": 20}, )") +
       std::string(kDroneWindow).substr(0, std::string(kDroneWindow).size() - 1) +
       R"(, {"name": "shutter", "shape": {"box": {"size": [0.1, 0.3, 0.3]}},
         "motion": {"type": "waypoints", "times": [0, 5, 8, 20], "poses": [{"position": [0, 0, 0]},

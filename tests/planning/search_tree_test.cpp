@@ -148,5 +148,23 @@ TEST(SearchTree, ChangesNoPathAndIsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// The time may end in any of the searches from which lazy PRM* takes its paths. What was found
+// before is kept.
+TEST(SearchTree, KeepsThePathsOfARoadmapWhoseTimeEnds) {
+  const PlanScene scene = with_gantry(thin_wall(0.2));
+  int found = 0;
+  for (int round = 1; round <= 60; ++round) {
+    const PlanResult result =
+        plan_path(scene, kRoot, {kGoal},
+                  {.planner = Planner::lazy_prm_star, .seed = 5, .time = 2e-3 * round});
+    if (result.verdict == PlanVerdict::proven) {
+      ++found;
+      EXPECT_EQ(result.path.front(), kRoot);
+      EXPECT_EQ(result.path.back(), kGoal);
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
 }  // namespace
 }  // namespace firstcontact::test

@@ -95,10 +95,15 @@ TEST(SeveralRobots, RefuseWhatIsNoMover) {
   const std::vector<std::string> two_names = {"a", "b"};
   EXPECT_THROW((void)ConfigurationSpace::joined(two_names, one), std::invalid_argument);
   EXPECT_THROW((void)ConfigurationSpace::joined({}, {}), std::invalid_argument);
-  const std::vector<ConfigurationSpace> body = {
-      ConfigurationSpace::of_body("box", make_box({1, 1, 1}), {-1, -1, -1}, {1, 1, 1})};
+  const std::vector<ConfigurationSpace> screw = {ConfigurationSpace::of_body(
+      "box", make_box({1, 1, 1}), {-1, -1, -1}, {1, 1, 1}, BodyEdges::screw)};
   const std::vector<std::string> name = {"a"};
-  EXPECT_THROW((void)ConfigurationSpace::joined(name, body), std::invalid_argument);
+  EXPECT_THROW((void)ConfigurationSpace::joined(name, screw), std::invalid_argument);
+  const std::vector<ConfigurationSpace> both = {ConfigurationSpace::joined(name, one), one.front()};
+  EXPECT_NO_THROW((void)ConfigurationSpace::joined(two_names, both));
+  const std::vector<ConfigurationSpace> nested = {ConfigurationSpace::joined(two_names, both),
+                                                  one.front()};
+  EXPECT_THROW((void)ConfigurationSpace::joined(two_names, nested), std::invalid_argument);
   PlanScene twice = two_gantries();
   twice.robots = {0, 0};
   EXPECT_THROW(EdgeChecker{twice}, std::invalid_argument);
@@ -264,7 +269,7 @@ TEST(SeveralRobots, NameWhatIsWrong) {
   says(R"({"robots": [], "goal": {"left/elbow": 0}})", "at least two robots");
   says(R"({"robots": ["left", "left"], "goal": {"left/elbow": 0}})", "a second time");
   says(R"({"robots": ["left", "rihgt"], "goal": {"left/elbow": 0}})", "did you mean \"right\"");
-  says(R"({"robots": ["left"], "robot": "right", "goal": {"left/elbow": 0}})", "got several");
+  says(R"({"robots": ["left"], "robot": "right", "goal": {"left/elbow": 0}})", "got both");
   says(R"({"robots": ["left"], "goal": {"left/elbow": 0}})", "a single one is \"robot\"");
   says(R"({"robots": ["left", "right"], "goal": {"elbow": 0}})", "ROBOT/NAME");
   says(R"({"robots": ["left", "right"], "goal": {"left/wrist": 0}})", "wrist");

@@ -41,8 +41,14 @@ std::optional<std::string> defect_of_pose(const Configuration& q, std::size_t fi
 }
 
 bool is_in_box(const SpacePose& pose, const Configuration& q, std::size_t first) {
-  const Eigen::Vector3d place(q[first], q[first + 1], q[first + 2]);
-  return (place.array() >= pose.low.array()).all() && (place.array() <= pose.high.array()).all();
+  for (std::size_t k = 0; k < pose.has_limits.size(); ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const bool is_within = q[first + k] >= pose.low[axis] && q[first + k] <= pose.high[axis];
+    if (pose.has_limits.at(k) && !is_within) {
+      return false;
+    }
+  }
+  return true;
 }
 
 double body_distance(const Pose& from, const Pose& to, double reach) {

@@ -31,7 +31,7 @@ void set_pose(const Pose& pose, std::size_t first, Configuration& q);
 /// The reason why seven numbers are no pose; none where they are one.
 [[nodiscard]] std::optional<std::string> defect_of_pose(const Configuration& q, std::size_t first);
 
-/// Whether the position is within the sampled box.
+/// Whether the position is within the sampled box, as far as that has ends.
 [[nodiscard]] bool is_in_box(const SpacePose& pose, const Configuration& q, std::size_t first);
 
 /// The length of an edge of a body whose points are within `reach` of its origin [m]: the path

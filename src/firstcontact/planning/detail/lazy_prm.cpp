@@ -188,7 +188,9 @@ FoundPath lazy_prm_star(PlanWork& work, const Configuration& start,
   while (waited < kLongestWait && !work.is_over()) {
     FoundPath next = rrt_connect(work, start, goals, range, random);
     if (!next.reaches_goal) {
-      best = best.reaches_goal ? std::move(best) : std::move(next);
+      if (!best.reaches_goal) {
+        best = std::move(next);
+      }
       break;
     }
     shorten_path(work, next.places, work.options().shortcuts, random);
