@@ -30,7 +30,7 @@ namespace firstcontact::test {
 namespace {
 
 // A drone, a bar of 0.6 m by 0.06 m by 0.06 m, with an arm of 0.3 m; a wall of 10 um with a window
-// of 0.3 m by 0.3 m, through which the bar fits lengthwise with its arm stretched or folded.
+// of 0.5 m by 0.5 m, through which the bar fits lengthwise with its arm stretched or folded.
 constexpr const char* kDrone = R"(<robot name="drone"><link name="world"/>
   <link name="hull"><collision><geometry><box size="0.6 0.06 0.06"/></geometry></collision></link>
   <link name="arm"><collision><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.04 0.04"/></geometry></collision></link>
@@ -39,10 +39,10 @@ constexpr const char* kDrone = R"(<robot name="drone"><link name="world"/>
     <axis xyz="0 0 1"/><limit lower="-1.5" upper="1.5" velocity="1" effort="1"/></joint></robot>)";
 
 constexpr const char* kDroneWindow = R"("bodies": [
-  {"name": "left", "shape": {"box": {"size": [0.00001, 1.85, 4]}}, "pose": {"position": [0, -1.075, 0]}},
-  {"name": "right", "shape": {"box": {"size": [0.00001, 1.85, 4]}}, "pose": {"position": [0, 1.075, 0]}},
-  {"name": "below", "shape": {"box": {"size": [0.00001, 0.31, 1.85]}}, "pose": {"position": [0, 0, -1.075]}},
-  {"name": "above", "shape": {"box": {"size": [0.00001, 0.31, 1.85]}}, "pose": {"position": [0, 0, 1.075]}}])";
+  {"name": "left", "shape": {"box": {"size": [0.00001, 1.75, 4]}}, "pose": {"position": [0, -1.125, 0]}},
+  {"name": "right", "shape": {"box": {"size": [0.00001, 1.75, 4]}}, "pose": {"position": [0, 1.125, 0]}},
+  {"name": "below", "shape": {"box": {"size": [0.00001, 0.51, 1.75]}}, "pose": {"position": [0, 0, -1.125]}},
+  {"name": "above", "shape": {"box": {"size": [0.00001, 0.51, 1.75]}}, "pose": {"position": [0, 0, 1.125]}}])";
 
 constexpr const char* kDroneBounds =
     R"("bounds": {"base/trans_x": [-1.5, 1.5], "base/trans_y": [-1, 1], "base/trans_z": [-1, 1]})";
@@ -85,7 +85,7 @@ class DroneFile : public ::testing::Test {
 };
 
 std::string drone_through_window(const std::string& more = "") {
-  return std::string(R"("goal": {"base": {"position": [1, 0.1, 0]}, "elbow": 0.5}, "time": 20, )") +
+  return std::string(R"("goal": {"base": {"position": [1, 0.1, 0]}, "elbow": 0.5}, "time": 60, )") +
          kDroneBounds + more;
 }
 
@@ -114,7 +114,7 @@ TEST_F(DroneFile, IsPlannedThroughAWindow) {
     EXPECT_EQ(write_planned_path(read), text);
     // With the window shut, none of these paths is free.
     PlanScene closed = plan.plan;
-    closed.scene.add_body("shutter", make_box({1e-5, 0.3, 0.3}), Motion::fixed());
+    closed.scene.add_body("shutter", make_box({1e-5, 0.5, 0.5}), Motion::fixed());
     const EdgeChecker checker(closed);
     bool is_blocked = false;
     for (std::size_t k = 0; k + 1 < result.path.size(); ++k) {
@@ -148,7 +148,7 @@ TEST_F(DroneFile, MovesInTime) {
   const std::string text =
       std::string(R"({"firstcontact": 1, "options": {"duration": 20}, )") +
       std::string(kDroneWindow).substr(0, std::string(kDroneWindow).size() - 1) +
-      R"(, {"name": "shutter", "shape": {"box": {"size": [0.1, 0.3, 0.3]}},
+      R"(, {"name": "shutter", "shape": {"box": {"size": [0.1, 0.5, 0.5]}},
         "motion": {"type": "waypoints", "times": [0, 5, 8, 20], "poses": [{"position": [0, 0, 0]},
         {"position": [0, 0, 0]}, {"position": [0.2, 0, 3]}, {"position": [0.2, 0, 3]}]}}],
         "robots": [{"name": "d", "urdf": "drone.urdf", "state": {"base/trans_x": -1}}],

@@ -348,6 +348,18 @@ TEST(ReproofCampaign, ProvesWhatAChecksSaysOfBodies) {
   RecordProperty("falsified", tally.falsified);
 }
 
+// Here the rounding of axes, times the size of the scene, was more than the gap just before a
+// contact that is known to 0.05 pm.
+TEST(ReproofCampaign, ProvesWhatLongCampaignsLeftOpen) {
+  Tally tally;
+  for (const std::uint64_t k : {524U}) {
+    SCOPED_TRACE("case " + std::to_string(k));
+    Random random(1000 + k);
+    run_case(random_bodies(random), "s", k % 4 == 0, random, tally);
+  }
+  EXPECT_EQ(tally.contact, 1);
+}
+
 TEST(ReproofCampaign, ProvesWhatACheckSaysOfRobots) {
   const auto cases = test::from_environment("FIRSTCONTACT_REPROOF_CASES", test::rounds(12, 10));
   Tally tally;

@@ -96,7 +96,9 @@ class Cover {
     double time = 0.0;   // [s]  Middle of the window.
     double half = 0.0;   // [s]
     double error = 0.0;  // [m]  Error of every gap along a direction, thickness and jumps included.
-    double drift = 0.0;  // [m]  Sum of the errors of rounded velocities.
+    double unit_error =
+        0.0;                // [m]  The same for directions that are unit vectors but for rounding.
+    double drift = 0.0;     // [m]  Sum of the errors of rounded velocities.
     double promised = 0.0;  // [m]
     double enough = 0.0;    // [m]  The promised distance, without errors.
     bool can_split = false;
@@ -141,10 +143,10 @@ class Cover {
     const double size = s.A.now.pivot.norm() + s.A.reach + s.B.now.pivot.norm() + s.B.reach;
     const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
     const double tracking = s.A.tracking() + s.B.tracking();
-    // The directions are unit vectors up to these errors.
-    const double rounding =
-        s.A.error() + s.B.error() + (kPositionRounding + 2.0 * turn_errors) * size;
-    s.error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
+    const double rounding = s.A.error() + s.B.error() + kPositionRounding * size;
+    s.unit_error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
+    // Axes of bodies are unit vectors up to the errors of their turns.
+    s.error = s.unit_error + 2.0 * turn_errors * size;
     s.drift = s.A.drift(half) + s.B.drift(half);
     s.promised = options_.promised + (options_.nominal ? tracking : 0.0);
     s.enough = enough(s);
@@ -429,7 +431,7 @@ class Cover {
                                       const PointPair& closest, const Setting& s,
                                       double wanted) const {
     const Vector3d between = closest.on_B - closest.on_A;
-    const GapBound straight = triangle_gap_along(between / closest.distance, A, B, s);
+    const GapBound straight = triangle_gap_along(unit_or_zero(between), A, B, s);
     double best = std::max(-std::numeric_limits<double>::infinity(), straight.least());
     const auto offer = [&](const Vector3d& axis) {
       if (!(best >= wanted)) {
@@ -457,6 +459,9 @@ class Cover {
   }
 
   /// The least gap of each two corners, each with its own motion.
+  ///
+  /// @param n  [-]  from unit_or_zero(): a triangle's normals and edges have the errors of its
+  ///           corners, but they are made unit vectors
   [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
                                             const PlacedTriangle& B, const Setting& s) const {
     const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);
@@ -476,7 +481,7 @@ class Cover {
         least = std::min(least, bound);
       }
     }
-    return {middle - thickness() - s.error, kUp * (middle - least)};
+    return {middle - thickness() - s.unit_error, kUp * (middle - least)};
   }
 
   const CoverBody& A_;
