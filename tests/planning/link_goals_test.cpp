@@ -131,11 +131,13 @@ TEST_F(ChainFile, EndsTheSearchForPlacesWhereItIsStopped) {
   EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, options).verdict, PlanVerdict::none);
 }
 
-// The chain is 4.4 m long, from (0.4, 0, 0) on. Where any rotation will do, an angle is no part of the answer.
+// The chain is 4.4 m long, from (0.4, 0, 0) on. Where any rotation will do, an angle is no part of
+// the answer.
 TEST_F(ChainFile, TellsHowNearAPoseOfAnyRotationMayCome) {
   const auto message_for = [&](const std::string& more) {
     return refusal_of(scene(R"("goal": {"link": "hand", "pose": {"position": [0, 6.8, 0],
-        "rpy": [0, 0, 3]})" + more + R"(}, "time": 0.5)"));
+        "rpy": [0, 0, 3]})" +
+                            more + R"(}, "time": 0.5)"));
   };
   const std::string any = message_for(R"(, "rotation_tolerance": 4)");
   const std::size_t number = any.find("the nearest is ") + std::string("the nearest is ").size();

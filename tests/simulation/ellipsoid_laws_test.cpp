@@ -27,9 +27,7 @@ struct Rocking {
   double moment = 0.0;                 // [m^2]  Over the mass, about y.
   double lean = 0.3;                   // [rad]
 
-  Rocking() {
-    moment = (radii.x() * radii.x() + radii.z() * radii.z()) / 5.0;
-  }
+  Rocking() { moment = (radii.x() * radii.x() + radii.z() * radii.z()) / 5.0; }
 
   [[nodiscard]] double height(double q) const {
     return std::hypot(radii.x() * std::sin(q), radii.z() * std::cos(q));

@@ -22,13 +22,14 @@ struct MassProperties {
 /// Computes the integrals over the solid that a shape encloses, exactly but for rounding.
 ///
 /// The solid is the polyhedron that the triangles enclose, whether or not the shape counts as
-/// solid. A radius around a convex shape that counts as solid belongs to it. For a thickened point the solid is a
-/// ball, for a thickened edge a capsule. Vertices at the same place count as one.
+/// solid. A radius around a convex shape that counts as solid belongs to it. For a thickened point
+/// the solid is a ball, for a thickened edge a capsule. Vertices at the same place count as one.
 ///
 /// Triangles may all face outwards or all inwards; those around a cavity face into it. Space that
 /// they wind around twice, as components that overlap do, counts twice. A radius around another
-/// closed mesh has no mass: the polyhedron has it all. Cylinders, cones and ellipsoids (Shape::is_curved()) have
-/// the integrals of the curved body, not those of the triangles around it.
+/// closed mesh has no mass: the polyhedron has it all. Cylinders, cones and ellipsoids
+/// (Shape::is_curved()) have the integrals of the curved body, not those of the triangles around
+/// it.
 ///
 /// Precise far from the body frame's origin too: integrals are relative to the mesh.
 ///

@@ -100,8 +100,8 @@ void close_points_of_sets(const PlacedShape& A, const PlacedShape& B, double ban
       A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
         const detail::RestingPair motion(first.path(), second.path());
         const detail::MovingPair pair(first.shape(), second.shape(), motion);
-        const detail::ContactFrame frame{first.shape(), second.shape(), pair, 0.0,
-                                         motion.origin(0.0), 0.0};
+        const detail::ContactFrame frame{first.shape(), second.shape(),     pair,
+                                         0.0,           motion.origin(0.0), 0.0};
         detail::collect_contacts(frame, first.shape().radius() + second.shape().radius() + band,
                                  ContactState::all.most, workspace.data(), contacts);
       });

@@ -314,10 +314,11 @@ std::vector<RunTie> read_ties(const json& root, std::size_t count, const Line& l
 }
 
 /// Reads the number of a body with a mass; `last` has the number before it in the list.
-std::size_t read_moved_body(const json& value, const std::string& what, std::optional<std::size_t>& last,
-                            const RunHeader& header, const Line& line) {
-  const std::size_t body = line.index(value["body"], header.masses.size());
-  if (!(header.masses[body] > 0.0)) {
+std::size_t read_moved_body(const json& value, const std::string& what,
+                            std::optional<std::size_t>& last, const RunHeader& run,
+                            const Line& line) {
+  const std::size_t body = line.index(value["body"], run.masses.size());
+  if (!(run.masses[body] > 0.0)) {
     line.fail(value["body"], "the number of a " + what + ", a body with a mass");
   }
   if (last && body <= *last) {
@@ -336,11 +337,10 @@ std::vector<RunDeviceLink> read_device_links(const json& device, const RunHeader
                                              const Line& line) {
   std::vector<RunDeviceLink> links;
   std::optional<std::size_t> last;
-  const auto array = device.find("links");
-  if (array == device.end()) {
+  if (!device.contains("links")) {
     return links;
   }
-  for (const json& link : line.array(*array)) {
+  for (const json& link : line.array(device["links"])) {
     line.require_keys(link, {"body", "position", "quaternion_wxyz"});
     links.push_back(
         {.body = read_moved_body(link, "link", last, header, line), .X_WB = read_pose(link, line)});

@@ -224,8 +224,8 @@ class Verification {
     for (std::size_t b = 0; b < members_.size(); ++b) {
       const detail::BodyInstant now = at_start(b).pieces.front().instant(0.0, {0.0, 0.0, 0.0});
       const RunMember& member = members_[b];
-      points.emplace_back(now.pivot + now.R * (member.round ? member.round->centre
-                                                            : member.tree.triangles[0][0]));
+      points.emplace_back(
+          now.pivot + now.R * (member.round ? member.round->centre : member.tree.triangles[0][0]));
     }
     constexpr double kSlack = 1.0 + 0x1p-30;
     for (std::size_t a = 0; a < points.size(); ++a) {

@@ -73,8 +73,8 @@ class LinkGoalSearch {
     goal_check_.emplace(plan_.plan, plan_.start, PathEnd::goal, tolerance(), stop_);
     const PlanScene& plan = plan_.plan;
     for (const LinkGoal& wanted : question_.link_goals) {
-      const RobotName split = split_mover_name(
-          plan_.loaded.scene, {question_.robots, question_.body}, wanted.link);
+      const RobotName split =
+          split_mover_name(plan_.loaded.scene, {question_.robots, question_.body}, wanted.link);
       poses_.push_back(
           {.goal = {.link = link_of_goal(plan.space.model(split.which), wanted, split.name),
                     .mover = split.which,

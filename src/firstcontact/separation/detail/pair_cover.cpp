@@ -96,11 +96,10 @@ class Cover {
     double time = 0.0;   // [s]  Middle of the window.
     double half = 0.0;   // [s]
     double error = 0.0;  // [m]  Error of every gap along a direction, thickness and jumps included.
-    double unit_error =
-        0.0;                // [m]  The same for directions that are unit vectors but for rounding.
-    double drift = 0.0;     // [m]  Sum of the errors of rounded velocities.
-    double promised = 0.0;  // [m]
-    double enough = 0.0;    // [m]  The promised distance, without errors.
+    double unit_error = 0.0;  // [m]  The same for unit vectors that are only rounded.
+    double drift = 0.0;       // [m]  Sum of the errors of rounded velocities.
+    double promised = 0.0;    // [m]
+    double enough = 0.0;      // [m]  The promised distance, without errors.
     bool can_split = false;
     bool refines = false;  // Whether the least distance is searched for.
   };
@@ -460,8 +459,7 @@ class Cover {
 
   /// The least gap of each two corners, each with its own motion.
   ///
-  /// @param n  [-]  from unit_or_zero(): a triangle's normals and edges have the errors of its
-  ///           corners, but they are made unit vectors
+  /// @param n  [-]  from unit_or_zero(), whatever the errors of the corners that it came from
   [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
                                             const PlacedTriangle& B, const Setting& s) const {
     const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);

@@ -139,9 +139,9 @@ void SceneCourses::add_geometry(std::size_t member, const Shape& shape, const Po
     box.extend(vertex);
   }
   const Eigen::Vector3d p_GP = 0.5 * box.min() + 0.5 * box.max();
-  geometries_.push_back(
-      {member, shape, p_GP, std::make_shared<const BoxTree>(build_box_tree(shape, p_GP)),
-       exact_transform(X_MG) * at_point(p_GP), round_set_of(shape, p_GP)});
+  geometries_.push_back({member, shape, p_GP,
+                         std::make_shared<const BoxTree>(build_box_tree(shape, p_GP)),
+                         exact_transform(X_MG) * at_point(p_GP), round_set_of(shape, p_GP)});
 }
 
 void SceneCourses::attach_bodies() {
