@@ -293,7 +293,7 @@ class Haptics(tool_test.ToolTest):
         result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.3", "--wall",
                                "--empty-loop", "5", "--timing", "timing.csv")
         self.assertEqual(result.returncode, 0, result)
-        self.assertIn("empty loop  1200 ticks", result.stdout)
+        self.assertIn("empty loop 1200 ticks", result.stdout)
         self.assert_refused_with(self.haptics("--device", "simulated", "--empty-loop", "1"), "--wall")
 
     def felt_by(self, device, *arguments):

@@ -343,28 +343,21 @@ class Plan(tool_test.ToolTest):
         self.file("scene.json", scene(question, [PEG], robots=[moving]))
         self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "speeds", '"g"')
 
-    def test_plans_a_part_that_flies_while_a_robot_moves(self):
-        """A body together with a robot: the body as a robot of its own, with three slides."""
+    def test_plans_a_body_and_a_robot_at_once(self):
         self.file("gantry.urdf", URDF)
-        links = "".join(f'<link name="{name}"/>' for name in ("world", "sx", "sy"))
-        slides = "".join(
-            f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><axis xyz="{axis}"/>'
-            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
-            for name, parent, child, axis in (("x", "world", "sx", "1 0 0"), ("y", "sx", "sy", "0 1 0"),
-                                              ("z", "sy", "part", "0 0 1")))
-        self.file("part.urdf", f'<robot name="part">{links}<link name="part"><collision><geometry>'
-                               f'<box size="0.1 0.1 0.1"/></geometry></collision></link>{slides}</robot>')
-        question = {"robots": ["g", "p"], "joints": ["g/x", "g/z", "p/x", "p/y", "p/z"],
-                    "goal": {"g/x": 0.5, "p/x": -0.5}}
-        robots = [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -0.5, "z": 0}},
-                  {"name": "p", "urdf": "part.urdf", "state": {"x": 0.5, "y": 0, "z": 0}}]
-        self.file("scene.json", scene(question, (), robots=robots))
+        robots = [{"name": "g", "urdf": "gantry.urdf", "state": {"x": 0.5, "z": 0}}]
+        question = {"robot": "g", "body": "peg", "goal": {"g/x": -0.5, "peg": GOAL}, "box": [[-1, -1, -1], [1, 1, 1]]}
+        self.file("scene.json", scene(question, [PEG], robots=robots))
         result = self.plan("scene.json", "-o", "path.json")
         self.assertEqual(result.returncode, 0, result)
         self.assertEqual(self.run_tool("verify", "path.json").returncode, 0)
+        path = json.loads((self.folder / "path.json").read_text(encoding="utf-8"))
+        last = dict(zip(path["moves"]["joints"], path["waypoints"][-1]))
+        self.assertAlmostEqual(last["g/x"], -0.5)
+        self.assertEqual([last[f"peg/trans_{k}"] for k in "xyz"], GOAL["position"])
         (self.folder / "path.json").unlink()
-        self.file("scene.json", scene({"robots": ["g", "p"], "body": "peg", "goal": GOAL}, [PEG], robots=robots))
-        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), '"robots" and "body"', "got several")
+        self.file("scene.json", scene({**question, "goal": GOAL}, [PEG], robots=robots))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "plan.goal.position", "ROBOT/NAME")
 
     def test_knows_before_it_plans_that_a_file_cannot_be_written(self):
         # No path would be found: then there would be nothing to write either.
