@@ -19,7 +19,6 @@ namespace {
 
 using detail::CandidateSearch;
 using detail::GeometryCandidate;
-using detail::InstantProbe;
 using detail::ProbedCandidates;
 using detail::RobotTimeline;
 using Eigen::Vector3d;
@@ -67,49 +66,79 @@ struct Walls {
 TEST(CandidateSearch, IsTheSameWhereAProbeSeesNothing) {
   const Walls walls;
   std::size_t asked = 0;
-  const ProbedCandidates found = walls.search.find_until_contact(
-      0, InstantProbe{[&](const GeometryCandidate& instant) {
+  const ProbedCandidates found =
+      walls.search.find_unless_contact(0, [&](const GeometryCandidate& instant) {
         EXPECT_EQ(instant.window.begin, instant.window.end);
         EXPECT_TRUE(is_in_contact(walls.timeline, instant));  // All are boxes.
         ++asked;
         return false;
-      }});
+      });
   EXPECT_FALSE(found.contact.has_value());
   EXPECT_GT(asked, 0u);
   EXPECT_EQ(keys_of(found.candidates), keys_of(walls.search.find(0, {})));
 }
 
-// All that may touch until the contact is kept, and nothing that begins later.
+// Windows that are searched at once and candidates together are all that may touch.
+TEST(CandidateSearch, SearchesOrKeepsAllThatMayTouch) {
+  const Walls walls;
+  std::vector<GeometryCandidate> all;
+  std::vector<GeometryCandidate> kept =
+      walls.search.find_until_contact(0, [&](const GeometryCandidate& searched) {
+        all.push_back(searched);
+        return 1.0;
+      });
+  EXPECT_FALSE(all.empty());
+  all.insert(all.end(), kept.begin(), kept.end());
+  for (std::size_t pair = 0; pair < walls.timeline.pairs().size(); ++pair) {
+    const double x = static_cast<double>(walls.timeline.pairs()[pair].members[1]);
+    // The cube touches the wall from (x - 0.15) / 4 to (x + 0.15) / 4.
+    for (double t = (x - 0.15) / 4.0; t <= (x + 0.15) / 4.0; t += 0.005) {
+      EXPECT_TRUE(std::ranges::any_of(all,
+                                      [&](const GeometryCandidate& candidate) {
+                                        return candidate.pair == pair &&
+                                               candidate.window.begin <= t &&
+                                               t <= candidate.window.end;
+                                      }))
+          << pair << " at " << t;
+    }
+  }
+}
+
+// All that may touch until the contact is searched or kept, and nothing that begins later.
 TEST(CandidateSearch, LeavesOutWhatIsLaterThanAContact) {
   const Walls walls;
-  const ProbedCandidates found =
-      walls.search.find_until_contact(0, InstantProbe{[&](const GeometryCandidate& instant) {
-                                        return is_in_contact(walls.timeline, instant);
-                                      }});
-  ASSERT_TRUE(found.contact.has_value());
-  EXPECT_EQ(found.contact->window.begin, 0.25);  // At the middle of the first half.
-  std::size_t kept = 0;
-  for (const GeometryCandidate& candidate : found.candidates) {
+  constexpr double kContact = 0.2125;  // The cube touches the first wall from (1 - 0.15) / 4 on.
+  double first = 1.0;
+  std::vector<std::size_t> searched;
+  const std::vector<GeometryCandidate> kept =
+      walls.search.find_until_contact(0, [&](const GeometryCandidate& candidate) {
+        const double x = static_cast<double>(walls.timeline.pairs()[candidate.pair].members[1]);
+        EXPECT_LE(candidate.window.begin, first);
+        searched.push_back(candidate.pair);
+        const double touches = (x - 0.15) / 4.0;
+        if (candidate.window.begin <= (x + 0.15) / 4.0 && touches <= candidate.window.end) {
+          first = std::min(first, std::max(touches, candidate.window.begin));
+        }
+        return first;
+      });
+  for (const GeometryCandidate& candidate : kept) {
     EXPECT_LE(candidate.window.begin, 0.25) << candidate.pair;
-    kept += walls.timeline.pairs()[candidate.pair].members[1] == 1 ? 1 : 0;
+    const double x = static_cast<double>(walls.timeline.pairs()[candidate.pair].members[1]);
+    first = x == 1.0 && candidate.window.begin <= kContact ? kContact : first;
   }
-  ASSERT_EQ(kept, 1u);
-  // The cube touches the wall from (1 - 0.15) / 4 on.
-  const TimeWindow window = found.candidates.front().window;
-  EXPECT_LE(window.begin, 0.2125);
-  EXPECT_GE(window.begin, 0.1);  // Halved, although the two overlap at the middle.
-  EXPECT_GE(window.end, 0.25);
+  EXPECT_DOUBLE_EQ(first, kContact);
+  // The last wall is out of reach by then.
+  EXPECT_TRUE(std::ranges::none_of(
+      searched, [&](std::size_t pair) { return walls.timeline.pairs()[pair].members[1] == 3; }));
 }
 
 TEST(CandidateSearch, EndsAtTheFirstContactWhereAnyWillDo) {
   const Walls walls;
   std::size_t asked = 0;
-  const ProbedCandidates found =
-      walls.search.find_until_contact(0, InstantProbe{[&](const GeometryCandidate&) {
-                                                        ++asked;
-                                                        return true;
-                                                      },
-                                                      true});
+  const ProbedCandidates found = walls.search.find_unless_contact(0, [&](const GeometryCandidate&) {
+    ++asked;
+    return true;
+  });
   EXPECT_EQ(asked, 1u);
   EXPECT_TRUE(found.candidates.empty());
   ASSERT_TRUE(found.contact.has_value());
@@ -125,8 +154,8 @@ TEST(CandidateSearch, LooksAtTheEndFirstWhereAnyContactWillDo) {
   }
   const RobotTimeline timeline(scene);
   const CandidateSearch search(timeline);
-  const InstantProbe probe{[](const GeometryCandidate&) { return true; }, true};
-  const ProbedCandidates found = search.find_until_contact(0, probe);
+  const ProbedCandidates found =
+      search.find_unless_contact(0, [](const GeometryCandidate&) { return true; });
   ASSERT_TRUE(found.contact.has_value());
   EXPECT_EQ(found.contact->window.begin, 1.0);
   EXPECT_EQ(timeline.pairs()[found.contact->pair].members[1], 2u);

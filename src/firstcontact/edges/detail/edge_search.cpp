@@ -86,31 +86,25 @@ EdgeFound EdgeSearch::first_contact() {
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
-  const InstantProbe probe{[this](const GeometryCandidate& at) { return is_contact_at(at); }};
+  // A contact makes all later windows unnecessary.
+  const WindowProbe probe = [&](const GeometryCandidate& overlapping) {
+    first = earlier_by(overlapping, first);
+    return first.t;
+  };
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
     if (timeline_.piece(piece).begin > first.t) {
       break;
     }
-    ProbedCandidates found = candidates_.find_until_contact(piece, probe);
-    if (found.contact && found.contact->window.begin < first.t) {
-      first = contact_at(*found.contact);
-    }
-    // The earliest candidates first: a contact makes all later ones unnecessary.
-    std::stable_sort(found.candidates.begin(), found.candidates.end(),
+    std::vector<GeometryCandidate> left = candidates_.find_until_contact(piece, probe);
+    std::stable_sort(left.begin(), left.end(),
                      [](const GeometryCandidate& x, const GeometryCandidate& y) {
                        return x.window.begin < y.window.begin;
                      });
-    for (const GeometryCandidate& candidate : found.candidates) {
+    for (const GeometryCandidate& candidate : left) {
       first = earlier_by(candidate, first);
     }
   }
   return first;
-}
-
-EdgeFound EdgeSearch::contact_at(const GeometryCandidate& instant) const {
-  const double t = instant.window.begin;
-  return {t > 0.0 ? Verdict::contact : Verdict::contact_at_start, t,
-          timeline_.pairs()[instant.pair].members, UndecidedReason::none};
 }
 
 EdgeFound EdgeSearch::earlier_by(const GeometryCandidate& candidate, const EdgeFound& first) {
@@ -135,17 +129,15 @@ EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
-  const InstantProbe probe{[&](const GeometryCandidate& at) {
-                             return within.begin <= at.window.begin &&
-                                    at.window.begin <= within.end && is_contact_at(at);
-                           },
-                           true};
+  const InstantProbe probe = [&](const GeometryCandidate& at) {
+    return within.begin <= at.window.begin && at.window.begin <= within.end && is_contact_at(at);
+  };
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
     const TimeWindow whole = timeline_.piece(piece);
     if (whole.end < within.begin || whole.begin > within.end) {
       continue;
     }
-    ProbedCandidates found = candidates_.find_until_contact(piece, probe);
+    ProbedCandidates found = candidates_.find_unless_contact(piece, probe);
     if (found.contact) {
       return contact_of(*found.contact);
     }

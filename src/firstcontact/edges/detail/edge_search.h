@@ -68,7 +68,6 @@ class EdgeSearch {
   /// Whether one of the two lies in the other, a solid, at an instant. False for longer windows: a
   /// motion that begins free meets the surface first.
   [[nodiscard]] bool is_inside_at(const GeometryCandidate& candidate, const TimeWindow& within);
-  [[nodiscard]] EdgeFound contact_at(const GeometryCandidate& instant) const;
   /// The finding of a contact whose time was not searched for.
   [[nodiscard]] EdgeFound contact_of(const GeometryCandidate& candidate) const;
   /// The earlier one of a first contact and the contact of a candidate.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -55,10 +56,15 @@ class Search {
     return run_of(near_by_boxes(wanted));
   }
 
-  ProbedCandidates run_until_contact(const InstantProbe& probe) {
+  std::vector<GeometryCandidate> run_until_contact(const WindowProbe& probe) {
+    window_probe_ = has_tracking_errors_ ? nullptr : &probe;
+    return run_of(near_by_boxes({}));
+  }
+
+  ProbedCandidates run_unless_contact(const InstantProbe& probe) {
     probe_ = has_tracking_errors_ ? nullptr : &probe;
     std::vector<Question> near = near_by_boxes({});
-    if (probe_ != nullptr && probe_->any_will_do) {
+    if (probe_ != nullptr) {
       probe_end(near);
     }
     std::vector<GeometryCandidate> candidates = run_of(std::move(near));
@@ -86,7 +92,7 @@ class Search {
 
   std::vector<GeometryCandidate> run_of(std::vector<Question> near) {
     narrow(std::move(near));
-    if (is_over()) {
+    if (contact_) {
       return {};
     }
     join_windows();
@@ -145,24 +151,26 @@ class Search {
     return boxes;
   }
 
-  /// Halves windows level by level, so that early levels test instants all over the piece.
+  /// Halves windows, so that instants are tested all over the piece, or the first windows come
+  /// first.
   void narrow(std::vector<Question> near) {
     std::deque<Part> parts;
     parts.push_back({{}, std::move(near)});
-    while (!parts.empty() && !is_over()) {
+    while (!parts.empty() && !contact_) {
       const Part part = std::move(parts.front());
       parts.pop_front();
-      if (contact_ && grid_.at(part.window.begin) > contact_->window.begin) {
+      if (part.questions.empty() || grid_.at(part.window.begin) > horizon_) {
         continue;
       }
       Open open = still_open(part);
       std::vector<Question> first = open.apart;
       first.insert(first.end(), open.in_first.begin(), open.in_first.end());
-      if (!first.empty()) {
-        parts.push_back({part.window.first_half(), std::move(first)});
-      }
-      if (!open.apart.empty()) {
-        parts.push_back({part.window.second_half(), std::move(open.apart)});
+      Part halves[] = {{part.window.first_half(), std::move(first)},
+                       {part.window.second_half(), std::move(open.apart)}};
+      if (window_probe_ != nullptr) {
+        parts.insert(parts.begin(), std::begin(halves), std::end(halves));
+      } else {
+        parts.insert(parts.end(), std::begin(halves), std::end(halves));
       }
     }
   }
@@ -170,8 +178,8 @@ class Search {
   /// The questions for which shorter windows help; the others that may touch become candidates.
   Open still_open(const Part& part) {
     Open open;
-    std::vector<Question> near;
-    std::vector<GeometryCandidate> suspects;
+    std::vector<Question> overlapping;
+    std::vector<GeometryCandidate> instants;
     const double middle = grid_.at(part.window.middle());
     for (Question question : part.questions) {
       if (is_far(question, part.window)) {
@@ -182,21 +190,37 @@ class Search {
         open.apart.push_back(question);
         continue;
       }
-      near.push_back(question);
+      if (window_probe_ != nullptr && !question.apart) {
+        overlapping.push_back(question);
+        continue;
+      }
+      found_.push_back(candidate_of(question, grid_.at(part.window)));
       if (probe_ != nullptr && !question.apart) {
-        suspects.push_back(candidate_of(question, {middle, middle}));
+        instants.push_back(candidate_of(question, {middle, middle}));
       }
     }
-    probe(suspects);
-    // A contact at the middle makes the second half needless.
-    if (part.window.can_be_halved() && contact_ && contact_->window.begin <= middle) {
-      open.in_first = std::move(near);
-      return open;
-    }
-    for (const Question& question : near) {
-      found_.push_back(candidate_of(question, grid_.at(part.window)));
-    }
+    probe(instants);
+    open.in_first = left_by_search(std::move(overlapping), part.window);
     return open;
+  }
+
+  /// Searches a window for contacts of geometries that overlap at its middle, the deepest first.
+  ///
+  /// It returns those that are left once the second half does not matter.
+  std::vector<Question> left_by_search(std::vector<Question> overlapping,
+                                       const GridWindow& window) {
+    const auto gap = [this](const Question& q) { return q.middle - margin_of(q.pair); };
+    std::stable_sort(overlapping.begin(), overlapping.end(),
+                     [&](const Question& x, const Question& y) { return gap(x) < gap(y); });
+    std::vector<Question> left;
+    for (const Question& question : overlapping) {
+      if (window.can_be_halved() && horizon_ <= grid_.at(window.middle())) {
+        left.push_back(question);
+      } else {
+        horizon_ = (*window_probe_)(candidate_of(question, grid_.at(window)));
+      }
+    }
+    return left;
   }
 
   [[nodiscard]] GeometryCandidate candidate_of(const Question& question,
@@ -208,10 +232,8 @@ class Search {
   /// Probes candidates of one instant, the deepest first, until the probe finds a contact.
   void probe(std::vector<GeometryCandidate>& suspects) {
     std::sort(suspects.begin(), suspects.end());
-    const auto hit = std::find_if(suspects.begin(), suspects.end(), [&](const auto& suspect) {
-      return (!contact_ || suspect.window.begin < contact_->window.begin) &&
-             probe_->is_contact(suspect);
-    });
+    const auto hit = std::find_if(suspects.begin(), suspects.end(),
+                                  [&](const auto& suspect) { return (*probe_)(suspect); });
     if (hit != suspects.end()) {
       contact_ = *hit;
     }
@@ -236,10 +258,6 @@ class Search {
       }
     }
     probe(suspects);
-  }
-
-  [[nodiscard]] bool is_over() const {
-    return contact_ && probe_ != nullptr && probe_->any_will_do;
   }
 
   /// Whether the two are proven farther apart than their threshold throughout the window.
@@ -435,28 +453,12 @@ class Search {
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
   std::vector<GeometryCandidate> found_;
   const InstantProbe* probe_ = nullptr;
-  std::optional<GeometryCandidate> contact_;  // The earliest contact that the probe has found.
+  std::optional<GeometryCandidate> contact_;  // The contact that this probe has found.
+  const WindowProbe* window_probe_ = nullptr;
+  double horizon_ = std::numeric_limits<double>::infinity();  // Time after which nothing matters.
 };
 
 }  // namespace
-
-RobotTree::RobotTree(const RobotModel& model) : nodes{{}}, node_of_link(model.links().size()) {
-  std::vector<std::size_t> open = {model.root()};
-  while (!open.empty()) {
-    const std::size_t link = open.back();
-    open.pop_back();
-    for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
-      if (model.parent_link(joint) != link) {
-        continue;
-      }
-      open.push_back(model.child_link(joint));
-      if (model.joints()[joint].type != JointType::fixed) {
-        node_of_link[model.child_link(joint)] = nodes.size();
-        nodes.push_back({node_of_link[model.rigid_root(link)], joint});
-      }
-    }
-  }
-}
 
 CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
     : timeline_(timeline), resting_(timeline.geometries().size()) {
@@ -480,8 +482,13 @@ std::vector<GeometryCandidate> CandidateSearch::find(std::size_t piece,
   return Search(timeline_, piece, trees_, resting_, held).run(wanted);
 }
 
-ProbedCandidates CandidateSearch::find_until_contact(std::size_t piece,
-                                                     const InstantProbe& probe) const {
+ProbedCandidates CandidateSearch::find_unless_contact(std::size_t piece,
+                                                      const InstantProbe& probe) const {
+  return Search(timeline_, piece, trees_, resting_).run_unless_contact(probe);
+}
+
+std::vector<GeometryCandidate> CandidateSearch::find_until_contact(std::size_t piece,
+                                                                   const WindowProbe& probe) const {
   return Search(timeline_, piece, trees_, resting_).run_until_contact(probe);
 }
 

@@ -16,6 +16,7 @@
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/robot_check/detail/robot_tree.h>
 #include <firstcontact/robot_check/detail/swept_geometry.h>
 
 namespace firstcontact::detail {
@@ -40,34 +41,18 @@ struct GeometryCandidate {
   }
 };
 
-/// Tests instants while candidates are searched for: a contact makes later searches needless.
-struct InstantProbe {
-  /// Whether two geometries are in contact at an instant, which is the candidate's window.
-  ///
-  /// Their hulls then overlap, or nearly so.
-  std::function<bool(const GeometryCandidate&)> is_contact;
-  bool any_will_do = false;  ///< Whether any contact ends the search; else only later candidates
-                             ///< are left out.
-};
+/// Whether two geometries are in contact at an instant, which is the candidate's window. Their
+/// hulls then overlap, or nearly so.
+using InstantProbe = std::function<bool(const GeometryCandidate&)>;
 
-/// The geometries that may touch until the earliest contact that a probe has found.
+/// Searches the window of a candidate whose hulls overlap at some time, or nearly so. It returns
+/// the time after which nothing matters any more.
+using WindowProbe = std::function<double(const GeometryCandidate&)>;
+
+/// The geometries that may touch, or a contact.
 struct ProbedCandidates {
-  std::vector<GeometryCandidate> candidates;  ///< Empty where any contact ends the search and one
-                                              ///< is known.
+  std::vector<GeometryCandidate> candidates;  ///< Empty where a contact is known.
   std::optional<GeometryCandidate> contact;   ///< The contact; its window is the instant.
-};
-
-/// The links of a robot that joints move, each after the one that carries it.
-struct RobotTree {
-  struct Node {
-    std::size_t parent = 0;  ///< Index of the parent; of no meaning for the first node.
-    std::size_t joint = 0;   ///< Index of the joint that moves the node; of no meaning for the
-                             ///< first.
-  };
-  std::vector<Node> nodes;
-  std::vector<std::size_t> node_of_link;  ///< Node of each link that is its own rigid_root().
-
-  explicit RobotTree(const RobotModel& model);
 };
 
 /// Finds the geometries that may touch, piece by piece. Thread-safe.
@@ -87,14 +72,20 @@ class CandidateSearch {
                                                     const std::function<bool(std::size_t)>& wanted,
                                                     std::span<const double> held = {}) const;
 
-  /// Finds candidates in windows that begin no later than the earliest contact that a probe finds.
+  /// Finds candidates, unless a probe finds a contact.
   ///
-  /// Between that contact and the end of the piece nothing is known. Without tracking errors the
-  /// probe is called where the hulls of two geometries are no farther apart than their threshold at
-  /// the middle of a window. Where any contact ends the search, it is also called at the end of the
-  /// piece.
-  [[nodiscard]] ProbedCandidates find_until_contact(std::size_t piece,
-                                                    const InstantProbe& probe) const;
+  /// Without tracking errors the probe is called where the hulls of two geometries are no farther
+  /// apart than their threshold: at the end of the piece, or at the middle of a window.
+  [[nodiscard]] ProbedCandidates find_unless_contact(std::size_t piece,
+                                                     const InstantProbe& probe) const;
+
+  /// Finds candidates from the begin of the piece on, as far as they matter.
+  ///
+  /// Without tracking errors the probe searches windows at whose middle the hulls of two geometries
+  /// are no farther apart than their threshold. These windows are not among the candidates. Windows
+  /// are left out, or end earlier, where the probe has found that nothing matters later.
+  [[nodiscard]] std::vector<GeometryCandidate> find_until_contact(std::size_t piece,
+                                                                  const WindowProbe& probe) const;
 
   /// Finds candidates of all tested pairs, with one distance [m] in place of their thresholds.
   [[nodiscard]] std::vector<GeometryCandidate> find_within(std::size_t piece,
