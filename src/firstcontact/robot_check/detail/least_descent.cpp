@@ -5,49 +5,69 @@
 namespace firstcontact::detail {
 namespace {
 
+/// [-]  Part of the tolerance by which distances may differ where a descent ends. The proof finds
+/// what is nearer by most of the tolerance.
+constexpr double kShareOfClose = 0.125;
+
+/// A time and the distance [m] then.
+struct Sample {
+  double t = 0.0;
+  double distance = 0.0;
+};
+
 /// Three times, of which the one in the middle has the least distance.
 struct Bracket {
-  double left = 0.0;
-  double middle = 0.0;
-  double right = 0.0;
+  Sample left;
+  Sample middle;
+  Sample right;
 };
 
 /// The least of a few distances over a window, and its neighbours.
 template <class Distance>
 Bracket bracket(const TimeWindow& window, int samples, const Distance& distance) {
-  const auto at = [&](int k) {
-    return k == samples ? window.end : window.begin + (window.end - window.begin) * k / samples;
+  const auto sample = [&](int k) {
+    const double t =
+        k == samples ? window.end : window.begin + (window.end - window.begin) * k / samples;
+    return Sample{t, distance(t)};
   };
-  int least = 0;
-  double least_distance = distance(at(0));
+  Sample before = sample(0);
+  Bracket least{before, before, before};
+  bool is_last = true;  // Whether the least was the last one so far.
   for (int k = 1; k <= samples; ++k) {
-    const double here = distance(at(k));
-    if (here < least_distance) {
-      least = k;
-      least_distance = here;
+    const Sample here = sample(k);
+    if (here.distance < least.middle.distance) {
+      least = {before, here, here};
+      is_last = true;
+    } else if (is_last) {
+      least.right = here;
+      is_last = false;
     }
+    before = here;
   }
-  return {at(std::max(least - 1, 0)), at(least), at(std::min(least + 1, samples))};
+  return least;
 }
 
 /// Descends from the middle; returns the time of the least distance that it found.
+///
+/// @param close  [m]  nearer distances at all three times end it
 template <class Distance>
-double narrow(Bracket times, const Distance& distance) {
+double narrow(Bracket at, double close, const Distance& distance) {
   constexpr int kSteps = 24;
-  double at_middle = distance(times.middle);
   for (int k = 0; k < kSteps; ++k) {
-    const bool is_left = times.middle - times.left > times.right - times.middle;
-    const double other = 0.5 * (times.middle + (is_left ? times.left : times.right));
-    const double at_other = distance(other);
-    if (at_other < at_middle) {
-      (is_left ? times.right : times.left) = times.middle;
-      times.middle = other;
-      at_middle = at_other;
+    if (std::max(at.left.distance, at.right.distance) - at.middle.distance <= close) {
+      break;
+    }
+    const bool is_left = at.middle.t - at.left.t > at.right.t - at.middle.t;
+    const double t = 0.5 * (at.middle.t + (is_left ? at.left.t : at.right.t));
+    const Sample other{t, distance(t)};
+    if (other.distance < at.middle.distance) {
+      (is_left ? at.right : at.left) = at.middle;
+      at.middle = other;
     } else {
-      (is_left ? times.left : times.right) = other;
+      (is_left ? at.left : at.right) = other;
     }
   }
-  return times.middle;
+  return at.middle.t;
 }
 
 }  // namespace
@@ -75,7 +95,7 @@ void LeastDescent::descend(GeometrySearch& search, const TimeWindow& window, dou
     const auto of_triangles = [&, closest = best_.closest.value()](double time) {
       return search.distance_of_triangles(closest, time);
     };
-    t = narrow(bracket(window, kSamples, of_triangles), of_triangles);
+    t = narrow(bracket(window, kSamples, of_triangles), kShareOfClose * tolerance_, of_triangles);
     if (!(look(search, t) < before - 0.5 * tolerance_)) {
       return;
     }
@@ -89,7 +109,7 @@ void LeastDescent::descend(GeometrySearch& search, const TimeWindow& window, dou
 void LeastDescent::sample(GeometrySearch& search, const TimeWindow& window) {
   constexpr int kSamples = 4;
   const auto distance = [&](double time) { return look(search, time); };
-  (void)narrow(bracket(window, kSamples, distance), distance);
+  (void)narrow(bracket(window, kSamples, distance), kShareOfClose * tolerance_, distance);
 }
 
 void LeastDescent::run(GeometrySearch& search, const TimeWindow& window) {
