@@ -12,6 +12,7 @@
 #include <firstcontact/planning/search_tree.h>
 
 #include "planning/plan_cases.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -155,10 +156,11 @@ TEST(SearchTree, KeepsThePathsOfARoadmapWhoseTimeEnds) {
   const double once =
       plan_path(scene, kRoot, {kGoal}, {.seed = 5, .time = 60.0}).statistics.seconds;
   int found = 0;
-  for (int round = 0; round < 24; ++round) {
+  const int tries = rounds(12, 3);
+  for (int round = 0; round < tries; ++round) {
     const PlanResult result = plan_path(
         scene, kRoot, {kGoal},
-        {.planner = Planner::lazy_prm_star, .seed = 5, .time = once * (0.5 + 0.25 * round)});
+        {.planner = Planner::lazy_prm_star, .seed = 5, .time = once * (0.5 + 6.0 * round / tries)});
     if (result.verdict == PlanVerdict::proven) {
       ++found;
       EXPECT_EQ(result.path.front(), kRoot);
