@@ -35,11 +35,10 @@ struct Asked {
 
 /// Collects the close features of a pair at t.
 ///
-/// @param motion  motion of the centres, entered at t
-void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, const Asked& asked,
-             Workspace& workspace, std::vector<Contact>& contacts) {
-  const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
-  const detail::ContactFrame frame{A, B, pair, t, motion.origin(t), asked.beside};
+/// @param pair  of the motion of the centres, entered at t
+void collect(const Shape& A, const Shape& B, const detail::MovingPair& pair, double t,
+             const Asked& asked, Workspace& workspace, std::vector<Contact>& contacts) {
+  const detail::ContactFrame frame{A, B, pair, t, pair.motion().origin(t), asked.beside};
   detail::collect_contacts(frame, A.radius() + B.radius() + asked.band, ContactState::all.most,
                            workspace.data(), contacts);
 }
@@ -59,6 +58,24 @@ void collect_in_order(const Body& A, const Body& B, bool in_order, std::vector<C
   }
 }
 
+/// Collects the close features of two shapes at rest.
+///
+/// @param pair_of  makes the moving pair of two shapes and a motion
+template <class PairOf>
+void collect_at_rest(const PlacedShape& A, const PlacedShape& B, const Asked& asked,
+                     Workspace& workspace, std::vector<Contact>& contacts, const PairOf& pair_of) {
+  require_band(asked.band, asked.beside);
+  assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
+  const FloatEnvironmentGuard guard;
+  const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
+  collect_in_order(
+      A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
+        const detail::RestingPair motion(first.path(), second.path());
+        collect(first.shape(), second.shape(), pair_of(first.shape(), second.shape(), motion), 0.0,
+                asked, workspace, contacts);
+      });
+}
+
 }  // namespace
 
 void close_features(const MovingShape& A, const MovingShape& B, double t, double band,
@@ -73,38 +90,25 @@ void close_features(const MovingShape& A, const MovingShape& B, double t, double
             1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
         ConstantRatePair motion = detail::motion_of(first, second, resolution);
         motion.enter(t);
-        collect(first.shape, second.shape, motion, t, {band, beside}, workspace, contacts);
+        const detail::MovingPair pair(first.shape.hierarchy(), second.shape.hierarchy(), motion);
+        collect(first.shape, second.shape, pair, t, {band, beside}, workspace, contacts);
       });
 }
 
 void close_features(const PlacedShape& A, const PlacedShape& B, double band, Workspace& workspace,
                     std::vector<Contact>& contacts, double beside) {
-  require_band(band, beside);
-  assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
-  const FloatEnvironmentGuard guard;
-  const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
-  collect_in_order(
-      A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
-        const detail::RestingPair motion(first.path(), second.path());
-        collect(first.shape(), second.shape(), motion, 0.0, {band, beside}, workspace, contacts);
-      });
+  collect_at_rest(A, B, {band, beside}, workspace, contacts,
+                  [](const Shape& first, const Shape& second, const PairMotion& motion) {
+                    return detail::MovingPair(first.hierarchy(), second.hierarchy(), motion);
+                  });
 }
 
 void close_points_of_sets(const PlacedShape& A, const PlacedShape& B, double band,
                           Workspace& workspace, std::vector<Contact>& contacts) {
-  require_band(band, 0.0);
-  assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
-  const FloatEnvironmentGuard guard;
-  const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
-  collect_in_order(
-      A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
-        const detail::RestingPair motion(first.path(), second.path());
-        const detail::MovingPair pair(first.shape(), second.shape(), motion);
-        const detail::ContactFrame frame{first.shape(), second.shape(),     pair,
-                                         0.0,           motion.origin(0.0), 0.0};
-        detail::collect_contacts(frame, first.shape().radius() + second.shape().radius() + band,
-                                 ContactState::all.most, workspace.data(), contacts);
-      });
+  collect_at_rest(A, B, {band, 0.0}, workspace, contacts,
+                  [](const Shape& first, const Shape& second, const PairMotion& motion) {
+                    return detail::MovingPair(first, second, motion);
+                  });
 }
 
 void detail::close_features_by_front(const PlacedShape& A, const PlacedShape& B, double band,
