@@ -111,10 +111,11 @@ TEST(InverseInertia, OfARodAboutOneFreeAxisIsThatOfItsSlantedLength) {
   EXPECT_EQ(inverse.cwiseAbs().sum(), inverse(2, 2));
 }
 
-/// A body that turns freely for a second, the axes that `bits` says locked.
-RigidState turned(const Inertia& inertia, RigidState state, int steps) {
+/// A body that turns for a second.
+RigidState turned(const Inertia& inertia, RigidState state, int steps,
+                  const Vector3d& torque = Vector3d::Zero()) {
   for (int k = 0; k < steps; ++k) {
-    const FreeTurn turn = free_turn(inertia, state, Vector3d::Zero(), 1.0 / steps);
+    const FreeTurn turn = free_turn(inertia, state, torque, 1.0 / steps);
     const double angle = turn.rotation_vector.norm();
     const Eigen::AngleAxisd by(angle, turn.rotation_vector.stableNormalized());
     state.X_WB.rotation = (by * state.X_WB.rotation).normalized();
@@ -140,6 +141,47 @@ TEST(FreeTurn, OfAnyBodyKeepsEnergyAndMomentum) {
     ASSERT_LE((rotational_inertia(inertia, end.X_WB) * end.w_WB - momentum).norm(),
               1e-11 * momentum.norm())
         << i;
+  }
+}
+
+/// The orientation after a second, by Runge and Kutta's rule on the quaternion and the momentum.
+Eigen::Quaterniond integrated(const Inertia& inertia, const RigidState& begin,
+                              const Vector3d& torque) {
+  constexpr int kParts = 4000;
+  constexpr double kPart = 1.0 / kParts;
+  const Vector3d momentum = rotational_inertia(inertia, begin.X_WB) * begin.w_WB;
+  const auto rate = [&](const Eigen::Vector4d& q, double t) -> Eigen::Vector4d {
+    const Pose X_WB{Vector3d::Zero(), Eigen::Quaterniond(q).normalized()};
+    const Vector3d w = rotational_inertia(inertia, X_WB).inverse() * (momentum + t * torque);
+    return 0.5 * (Eigen::Quaterniond(0.0, w.x(), w.y(), w.z()) * Eigen::Quaterniond(q)).coeffs();
+  };
+  Eigen::Vector4d q = begin.X_WB.rotation.coeffs();
+  for (int k = 0; k < kParts; ++k) {
+    const double t = k * kPart;
+    const Eigen::Vector4d k1 = rate(q, t);
+    const Eigen::Vector4d k2 = rate(q + 0.5 * kPart * k1, t + 0.5 * kPart);
+    const Eigen::Vector4d k3 = rate(q + 0.5 * kPart * k2, t + 0.5 * kPart);
+    const Eigen::Vector4d k4 = rate(q + kPart * k3, t + kPart);
+    q += kPart / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  return Eigen::Quaterniond(q).normalized();
+}
+
+// Steps of less than 0.04 rad have one sub-step each, so the order is that of the rule: fourth
+// without a torque, third with one.
+TEST(FreeTurn, IsOfHighOrderInItsSubSteps) {
+  Inertia inertia;
+  inertia.about_C_B = Vector3d(1.0, 2.0, 2.6).asDiagonal();
+  RigidState begin{.X_WB = {{}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5)}, .w_WB = {1.0, 3.0, 1.5}};
+  for (const Vector3d& torque : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.5, -0.3, 0.4)}) {
+    const Eigen::Quaterniond right = integrated(inertia, begin, torque);
+    const auto error = [&](int steps) {
+      const Eigen::Quaterniond end = turned(inertia, begin, steps, torque).X_WB.rotation;
+      return 2.0 * (right.conjugate() * end).vec().norm();
+    };
+    const double coarse = error(100);
+    EXPECT_LE(coarse, torque.isZero() ? 1e-7 : 2e-6);
+    EXPECT_LE(error(200), coarse / (torque.isZero() ? 12.0 : 7.0) + 1e-13);
   }
 }
 

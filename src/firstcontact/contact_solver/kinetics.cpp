@@ -74,7 +74,8 @@ class Tumbling {
   Vector3d way_ = Vector3d::Zero();
 };
 
-/// Integrates in sub-steps of fourth order: three of the rule, of which one goes back.
+/// Integrates in sub-steps of the rule three times, of which one goes back. They are of fourth
+/// order without a torque, and of third with one, as the rule turns a torque to first order only.
 ///
 /// H. Yoshida, "Construction of higher order symplectic integrators" (Physics Letters A 150, 1990).
 FreeTurn tumbling_turn(const Inertia& inertia, const RigidState& state, const Vector3d& torque_W,

@@ -90,11 +90,14 @@ struct FreeTurn {
 /// rotations between the two, it is the one nearest to the mean angular velocity. Where axes are
 /// locked, the body turns by that mean, which has no component about locked axes.
 ///
-/// Method: the implicit midpoint rule for the angular velocity in the body's axes, in sub-steps of
-/// at most 0.04 rad. The rule keeps the length of the momentum; a turn of the body keeps its
-/// direction (M. Austin, P. Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body
-/// systems", Journal of Computational Physics 107 (1993)). There are at most 10,240 sub-steps: a
-/// body that spins faster goes on about the same axis.
+/// Method: sub-steps of at most 0.04 rad. Where no axis is locked, each has three steps of the
+/// implicit midpoint rule for the angular velocity in the body's axes, and is of fourth order
+/// without a torque (H. Yoshida, "Construction of higher order symplectic integrators", Physics
+/// Letters A 150 (1990)). Where axes are locked, it has one step. The rule keeps the length of the
+/// momentum; a turn of the body keeps its direction (M. Austin, P. Krishnaprasad, L.-S. Wang,
+/// "Almost Poisson integration of rigid body systems", Journal of Computational Physics 107
+/// (1993)). There are at most 10,240 sub-steps: a body that spins faster goes on about the same
+/// axis.
 ///
 /// @param torque_W  [N m]  constant, about C
 /// @param dt        [s]

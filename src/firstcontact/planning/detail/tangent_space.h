@@ -24,10 +24,9 @@ struct MovedMember {
 
 /// The motions dq that lead from a place, to first order, with a kinetic metric.
 ///
-/// They are the changes of coordinates [rad or m], then for each pose the displacement of a point
-/// [m] and a rotation vector [rad], both in the frame of the pose. The point is the centre of a
-/// body's hierarchy, and the origin of what a floating joint moves. All of this steers a search
-/// only: no proof depends on it.
+/// First come the changes of coordinates [rad or m]. Then each pose has the displacement of a point
+/// [m] and a rotation vector [rad], in its frame. The point is the centre of a body's hierarchy, or
+/// the origin of what a floating joint moves. This steers a search: no proof depends on it.
 class TangentSpace {
  public:
   explicit TangentSpace(const PlanScene& scene);
