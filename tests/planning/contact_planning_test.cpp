@@ -496,7 +496,7 @@ TEST(NarrowPassages, AreAsWideAsStated) {
 // The time only ends a search that hangs: machines under sanitizers are 50 times slower.
 TEST(NarrowPassages, AreSolvedInContact) {
   for (const char* family : narrow_families()) {
-    const NarrowPassage passage = narrow_passage(family, rounds(50, 200) * 1e-3);
+    const NarrowPassage passage = narrow_passage(family, rounds(50, 100) * 1e-3);
     const PlanResult result = plan_path(passage.scene, passage.start, {passage.goal},
                                         {.contacts = ContactUse::both, .time = 300.0});
     ASSERT_EQ(result.verdict, PlanVerdict::proven) << family;

@@ -300,6 +300,7 @@ one set at once; it cannot change meanwhile.)");
       .def_property_readonly(
           "rules",
           [](const py::object& self) {
+            (void)self.cast<const HeldBodySet&>();  // refuses an object that holds nothing
             return HeldRules{PairRules(), self};
           },
           "The rules of this set; they may be changed.")

@@ -104,6 +104,12 @@ ContactCount contact_count_of(const HeldResult& result) {
   return count;
 }
 
+/// The first cast refuses an object that `__new__` alone has made; that to a holder says so badly.
+SharedResult shared(const py::object& self) {
+  (void)self.cast<const HeldResult&>();
+  return self.cast<std::shared_ptr<HeldResult>>();
+}
+
 py::object names_of_first(const SharedResult& result) {
   const auto first = result->answer.first;
   return first ? py::object(name_tuple({result, *first})) : py::object(py::none());
@@ -377,7 +383,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "time", [](const HeldResult& r) { return r.answer.t * duration(r); },
           "[s] t times the duration.")
       .def_property_readonly(
-          "pair", [](const std::shared_ptr<HeldResult>& r) { return names_of_first(r); },
+          "pair", [](const py::object& r) { return names_of_first(shared(r)); },
           "The names of the bodies that determine t; None when free.")
       .def_property_readonly(
           "contacts", &contacts_of,
@@ -393,10 +399,10 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "clearance", [](const HeldResult& r) { return r.answer.clearance; },
           "[m] Proven lower bound of all distances up to t; infinite where no pair is tested.")
       .def_property_readonly(
-          "closest", [](const std::shared_ptr<HeldResult>& r) { return closest_of(r); },
+          "closest", [](const py::object& r) { return closest_of(shared(r)); },
           "The pair that comes closest; None where that was not asked for.")
       .def_property_readonly(
-          "pairs", [](const std::shared_ptr<HeldResult>& r) { return pairs_of(r); },
+          "pairs", [](const py::object& r) { return pairs_of(shared(r)); },
           "Every tested pair where that was asked for, else those that determine t.")
       .def_property_readonly("turns", &turns_of,
                              "JointTurns: the way of continuous joints, and its length.")
