@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -21,6 +22,8 @@ using Eigen::Vector3d;
 constexpr double kSameDistance = 1e-3;
 /// [-]  Most sine between a contact's normal and that of the face on which it is.
 constexpr double kOnFace = 1e-5;
+/// [-]  Most difference of the radii of both ends of a cylinder, by themselves.
+constexpr double kSameRadius = 1e-9;
 /// [-]  Points nearer to an end of an edge than this are at that corner, by its length.
 constexpr double kAtCorner = 1e-7;
 
@@ -84,6 +87,19 @@ Feature rim_feature(const Shape& shape, std::uint32_t triangle, const Vector3d& 
   return nearest;
 }
 
+/// The circle of the cylinder on whose side a point is; null elsewhere.
+///
+/// @param outwards  [-]  unit, out of the body
+const RoundCircle* cylinder_at(const PlacedRound& body, const Vector3d& outwards) {
+  if (body.circles == nullptr || body.circles->circles().size() != 2) {
+    return nullptr;  // A cone has one circle, an ellipsoid none.
+  }
+  const std::vector<RoundCircle>& ends = body.circles->circles();
+  const Vector3d axis = body.pose.rotation.normalized() * ends[0].axis_B;
+  const bool is_cylinder = std::abs(ends[0].outer - ends[1].outer) <= kSameRadius * ends[0].outer;
+  return is_cylinder && std::abs(axis.dot(outwards)) <= kOnFace ? ends.data() : nullptr;
+}
+
 /// The side of a body that is no ellipsoid.
 ///
 /// @param point     [m]
@@ -94,6 +110,7 @@ Side side_of(const PlacedRound& body, const Vector3d& point, const Vector3d& out
   side.core.point = point - side.thickness * outwards;
   if (body.is_curved) {
     side.along = outwards;
+    side.round.circle = cylinder_at(body, outwards);
     return side;
   }
   if (feature.type == FeatureType::face) {

@@ -18,7 +18,7 @@ namespace firstcontact::detail {
 /// search found them where that gives another distance.
 ///
 /// @param bodies  at least one is an ellipsoid
-/// @returns the ellipsoids on which the contact is
+/// @returns the ellipsoids, and the cylinder's circle, on which the contact is
 std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& bodies,
                                              Contact& contact);
 
