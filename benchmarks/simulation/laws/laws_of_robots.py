@@ -60,13 +60,26 @@ def arm_on_the_floor(tool, step, damping=0.0, press=None, stiffness=20.0, resist
     return worst
 
 
-def slow_arm(tool, step, resistance, distance):
-    """The same within 1 s from rest, where springs of 200 N m/rad press with 20 N m and dampers are weak or strong."""
+def speed_of_creep(press, stiffness, resistance):
+    """[rad/s]  The rate of the first angle where springs and gravity turn strong dampers, and no mass matters."""
+    up = rise_of_end(*ARM_START)
+    along = [1.0, -up[0] / up[1]]
+    falls = two_links(0.0)([*ARM_START, 0.0, 0.0])[2:]
+    m11, m12, m22 = two_links_mass(ARM_START[1])
+    weights = [m11 * falls[0] + m12 * falls[1], m12 * falls[0] + m22 * falls[1]]
+    torques = [weight + stiffness * (target - q) for weight, target, q in zip(weights, press, ARM_START)]
+    return sum(a * t for a, t in zip(along, torques)) / (resistance * sum(a * a for a in along))
+
+
+def slow_arm(tool, step, resistance, distance, creeps=False):
+    """The same within 1 s, where springs of 200 N m/rad press with 20 N m and dampers are weak or strong. It starts
+    from rest, or at the speed at which it creeps."""
     up = rise_of_end(*ARM_START)
     length = math.hypot(*up)
     down, along = [-x / length for x in up], [up[1] / length, -up[0] / length]
     press = [q + 0.1 * d + 0.01 * a for q, d, a in zip(ARM_START, down, along)]
-    return arm_on_the_floor(tool, step, press=press, stiffness=200.0, resistance=resistance, speed=0.0, duration=1.0,
+    speed = speed_of_creep(press, 200.0, resistance) if creeps else 0.0
+    return arm_on_the_floor(tool, step, press=press, stiffness=200.0, resistance=resistance, speed=speed, duration=1.0,
                             distance=distance)
 
 

@@ -163,6 +163,20 @@ Coordinate coordinate_of(const JointLaw& law, const MechanismState& state,
           rule.origin[law.velocity]};
 }
 
+/// [rad or m]  The position to which a weight above 1/2 leads.
+///
+/// It is right for a velocity that the damper ends: in a span it loses at least 2 weight - 1 of it.
+/// A velocity that changes by less than half of that is of a slow motion against the damper. With
+/// such a weight its positions would be of first order, so it has the mean.
+double weighted_position(const JointLaw& law, const Coordinate& c, double u, double span) {
+  const double more = c.weight - 0.5;
+  const double change = u - c.v;
+  const double ended = more * std::max(std::abs(u), std::abs(c.v));
+  const double slow = ended > 0.0 ? std::clamp(2.0 - std::abs(change) / ended, 0.0, 1.0) : 0.0;
+  const double way = c.origin + span * c.weight * u - slow * span * more * change - c.q;
+  return c.q + room_within_limits(law, c.q, c.q, way);
+}
+
 /// [rad or m]  The position to which a motor without spring leads in a span.
 double goal(const JointLaw& law, double q, const PlanSpan& span) {
   if (law.motor->kind == JointMotor::Kind::position) {
@@ -449,7 +463,7 @@ std::vector<PlacedCoordinate> placed_coordinates(const std::vector<JointLaw>& la
       placed.push_back({law.velocity, law.position, goal(law, c.q, span), is_along_rows});
     } else if (c.weight > 0.5) {
       placed.push_back(
-          {law.velocity, law.position, c.origin + span.length * c.weight * u[law.velocity]});
+          {law.velocity, law.position, weighted_position(law, c, u[law.velocity], span.length)});
     }
   }
   return placed;
