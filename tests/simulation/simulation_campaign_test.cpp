@@ -1,9 +1,9 @@
 // Random scenes of solids, soups, plates, balls and capsules on floors, in bowls, in free space and
-// against scripted bodies, and robots with and without motors among them: what every step has to
-// keep, and the proof of every run.
+// against scripted bodies, curved shapes as well, and robots with and without motors among them:
+// what every step has to keep, and the proof of every run.
 //
-// FIRSTCONTACT_SIMULATIONS (default 20, 8 with robots) is the number of scenes of each kind, from
-// FIRSTCONTACT_FIRST_SIMULATION (default 0) on. A thousand take about two minutes:
+// FIRSTCONTACT_SIMULATIONS (default 20, 12 curved, 8 with robots) is the number of scenes of each
+// kind, from FIRSTCONTACT_FIRST_SIMULATION (default 0) on. A thousand take about two minutes:
 //   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/simulation/simulation_slow_test
 //   --gtest_filter=SimulationCampaign.*
 
@@ -151,6 +151,12 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
 
+  /// A scene in which most shapes are cylinders, cones, ellipsoids and rounded boxes.
+  CampaignScene curved_scene() {
+    most_are_curved_ = true;
+    return scene();
+  }
+
   CampaignScene scene() {
     CampaignScene scene;
     const double around = random_.uniform(0.0, 1.0);
@@ -218,8 +224,31 @@ class Draw {
            ", " + text(q.x()) + ", " + text(q.y()) + ", " + text(q.z()) + "]}" + dynamics + "}}";
   }
 
+  std::string draw_curved() {
+    const auto sizes = [&](double least, double greatest) {
+      const double x = random_.uniform(least, greatest);
+      const double y = random_.uniform(least, greatest);
+      return text(Vector3d(x, y, random_.uniform(least, greatest)));
+    };
+    const int kind = static_cast<int>(random_.uniform(0.0, 4.0));
+    if (kind == 0) {
+      return R"({"ellipsoid": {"radii": )" + sizes(0.03, 0.3) + "}}";
+    }
+    if (kind == 1) {
+      const std::string size = sizes(0.05, 0.25);
+      return R"({"box": {"size": )" + size + R"(}, "radius": )" +
+             text(random_.uniform(0.01, 0.05)) + "}";
+    }
+    const double radius = random_.uniform(0.02, 0.2);
+    return std::string(kind == 2 ? R"({"cylinder")" : R"({"cone")") + R"(: {"radius": )" +
+           text(radius) + R"(, "length": )" + text(random_.uniform(0.02, 0.4)) + "}}";
+  }
+
   /// Adds the mass of what encloses nothing.
   std::string draw_shape(std::string& dynamics) {
+    if (most_are_curved_ && random_.chance(0.7)) {
+      return draw_curved();
+    }
     switch (static_cast<int>(random_.uniform(0.0, 6.0))) {
       case 0: {
         const double x = random_.uniform(0.05, 0.35);
@@ -257,6 +286,7 @@ class Draw {
   }
 
   Random random_;
+  bool most_are_curved_ = false;
 };
 
 bool is_finite(const RunStep& step) {
@@ -354,6 +384,15 @@ TEST(SimulationCampaign, EveryRunKeepsTheLawsAndIsProven) {
   const Seeds seeds(20);
   for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
     campaign.check(seed, Draw(seed).scene());
+  }
+  campaign.print(seeds.count);
+}
+
+TEST(SimulationCampaign, SoDoesEveryRunOfCurvedShapes) {
+  Campaign campaign;
+  const Seeds seeds(12);
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+    campaign.check(seed, Draw(seed).curved_scene());
   }
   campaign.print(seeds.count);
 }
