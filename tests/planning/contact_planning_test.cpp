@@ -493,9 +493,12 @@ TEST(NarrowPassages, AreAsWideAsStated) {
   }
 }
 
-// The time only ends a search that hangs: machines under sanitizers are 50 times slower.
+// The time only ends a search that hangs: machines under sanitizers are 50 times slower. There the
+// first five families are enough.
 TEST(NarrowPassages, AreSolvedInContact) {
-  for (const char* family : narrow_families()) {
+  const std::span<const char* const> families = narrow_families();
+  const auto tested = static_cast<std::size_t>(rounds(static_cast<int>(families.size()), 5));
+  for (const char* family : families.first(tested)) {
     const NarrowPassage passage = narrow_passage(family, rounds(50, 100) * 1e-3);
     const PlanResult result = plan_path(passage.scene, passage.start, {passage.goal},
                                         {.contacts = ContactUse::both, .time = 300.0});
