@@ -76,8 +76,6 @@ Swing swing_of(const DeviceClass& device, double stiffness, double seconds, doub
   options.forces.limits.force_slew = 1e12;
   options.forces.limits.torque_slew = 1e12;
   options.forces.limits.ramp_ns = 1'000'000;
-  HapticSession session(scene, options);
-
   SimulatedOperatorOptions operator_options;
   operator_options.hand.stiffness = hand;
   operator_options.hand.tremor = 0.0;
@@ -95,6 +93,8 @@ Swing swing_of(const DeviceClass& device, double stiffness, double seconds, doub
   operator_options.path = {begin, pressed};
   operator_options.hand.damping = 0.0;  // The worst hand dissipates no energy.
   SimulatedOperator handle(operator_options);
+  options.mappings = {{.device = handle.capabilities()}};
+  HapticSession session(scene, options);
   const auto count = static_cast<std::int64_t>(seconds * device.rate);
   Extent early;
   Extent late;

@@ -171,7 +171,11 @@ Insertion insert(const SimulatedOperatorOptions& hand, const Step& step) {
 }
 
 Insertion insert_god_object(const HapticSetup& setup, std::uint64_t seed, const HandChoice& hand) {
-  HapticSession session(setup.scene, setup.options);
+  const SimulatedOperatorOptions options = hand_of(setup.scene.tools[0].X_WB, seed, hand);
+  HapticSessionOptions session_options = setup.options;
+  session_options.mappings = complete_mappings(setup.scene, session_options.mappings);
+  session_options.mappings[0].device = SimulatedOperator(options).capabilities();
+  HapticSession session(setup.scene, session_options);
   const auto step = [&](const DeviceState& state, std::int64_t /*now*/) {
     const std::array states{state};
     Felt felt{.command = session.step(states).tools[0].command};
@@ -181,7 +185,7 @@ Insertion insert_god_object(const HapticSetup& setup, std::uint64_t seed, const 
     }
     return felt;
   };
-  return insert(hand_of(setup.scene.tools[0].X_WB, seed, hand), step);
+  return insert(options, step);
 }
 
 /// Cuts a vector to a length.

@@ -170,6 +170,52 @@ TEST(ForceContinuity, IsStillWhileHeldAtEveryEdgeAndCornerOfACube) {
   }
 }
 
+/// A hand that holds a ball still between two steps of its encoder, 0.3 mm below a face.
+///
+/// @returns  [-]  swing of the force by its mean, over the last half second
+double swing_between_steps(bool is_declared, double offset) {
+  HapticScene scene = tool_beside_cube(true, Vector3d(0.0, 0.0, kHalf + 0.006));
+  SimulatedOperatorOptions options;
+  options.hand.tremor = 0.0;
+  options.hand.angular_tremor = 0.0;
+  ViaPoint pressed;
+  pressed.time = 0.4;
+  pressed.X_DH.position.z() = -0.001 - 3e-4 - offset;
+  options.path = {ViaPoint{}, pressed};
+  SimulatedOperator handle(options);
+  HapticSessionOptions session_options;
+  if (is_declared) {
+    session_options.mappings = {{.device = handle.capabilities()}};
+  }
+  HapticSession session(scene, session_options);
+  std::vector<double> forces;
+  double mean = 0.0;
+  constexpr std::size_t kTicks = 5000;
+  for (std::size_t k = 0; k < kTicks; ++k) {
+    const std::int64_t now = session.time_ns();
+    const ForceCommand command = session.step(std::array{handle.read(now)}).tools[0].command;
+    handle.command(command, now);
+    if (k + kWatched >= kTicks) {
+      forces.push_back(command.force_D.z());
+      mean += command.force_D.z() / static_cast<double>(kWatched);
+    }
+  }
+  EXPECT_GT(mean, 0.05);
+  return swing_of(forces) / mean;
+}
+
+// A light force of 0.1 N, of which a step of the encoder is a tenth. The spring of a device whose
+// step is declared does not follow the tremble; the test of the test is one without.
+TEST(ForceContinuity, IsStillWhileHeldBetweenTwoStepsOfTheEncoder) {
+  double undeclared = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    const double offset = 1e-5 * k / 2.5;
+    EXPECT_LT(swing_between_steps(true, offset), kHeldShare) << k;
+    undeclared = std::max(undeclared, swing_between_steps(false, offset));
+  }
+  EXPECT_GT(undeclared, 2.0 * kHeldShare);
+}
+
 // The test of the test: 40 times the stiffness that the device bears.
 TEST(ForceContinuity, IsNotStillWhereTheSpringIsTooStiff) {
   const Vector3d outward(1.0, 0.0, 1.0);

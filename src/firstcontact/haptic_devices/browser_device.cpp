@@ -26,7 +26,7 @@ constexpr std::int64_t kRoundNs = 4'000'000;     // [ns]  Pause between rounds o
 constexpr std::int64_t kPictureNs = 16'000'000;  // [ns]  Pause between messages to the page.
 // [ns]  Time after which a side that takes nothing is given up.
 constexpr std::int64_t kStillNs = 2'000'000'000;
-constexpr std::size_t kMostMessage = 4096;  // [byte]  Greatest length of a pose.
+constexpr std::size_t kMostPoseMessage = 4096;  // [byte]  Greatest length of a pose.
 constexpr std::size_t kMostConnections = 16;
 
 std::string http_answer(const char* status, std::string_view text) {
@@ -102,7 +102,7 @@ struct BrowserDevice::Data {
       end(connection, "403 Forbidden", "another page has the session");
       return;
     }
-    connection.reader.emplace(detail::WebSocketSide::server, kMostMessage);
+    connection.reader.emplace(detail::WebSocketSide::server, kMostPoseMessage);
     connection.reader->add(std::string_view(connection.request).substr(head.size));
     connection.left += *shakes_hands;
     ++report.connections;

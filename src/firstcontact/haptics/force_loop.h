@@ -53,6 +53,7 @@ struct DeviceMapping {
   /// Mappings of the device's values in order; at most kMostGrips.
   std::vector<GripMapping> grips = {};
   /// The device, whose abilities limit commands; without one, commands are as they are asked for.
+  /// While its reading trembles by a step of its resolution, the target is the mean of readings.
   std::optional<DeviceCapabilities> device = {};
 };
 

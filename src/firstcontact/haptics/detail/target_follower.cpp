@@ -90,6 +90,7 @@ void TargetFollower::disengage(bool moves_on, const Pose& god_object) noexcept {
   held_ = moves_on ? god_object : held_;
   target_ = held_;
   is_engaged_ = false;
+  still_.forget();
 }
 
 void TargetFollower::follow(const DeviceState& device, const Pose& god_object, double seconds,
@@ -120,7 +121,7 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object, d
   if (mapping_.kind == DeviceKind::rate) {
     drive(device, god_object, seconds);
   } else {
-    target_ = mapped(device.X_DH);
+    target_ = mapped(still_.take(device.X_DH));
   }
   if (!target_.position.allFinite() || !(target_.rotation.squaredNorm() > 0.0)) {
     // Scale and position may be finite and their product not.

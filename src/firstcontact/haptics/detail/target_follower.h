@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <firstcontact/haptic_devices/detail/still_pose.h>
 #include <firstcontact/haptics/force_loop.h>
 
 namespace firstcontact::detail {
@@ -24,6 +25,8 @@ class TargetFollower {
   TargetFollower(const DeviceMapping& mapping, const Pose& X_WB, const Eigen::Vector3d& p_BC)
       : mapping_(mapping),
         p_BC_(p_BC),
+        still_(mapping.device ? mapping.device->resolution : 0.0,
+               mapping.device ? mapping.device->angular_resolution : 0.0),
         X_DH_(mapping.X_DH),
         X_WB_(X_WB),
         target_(X_WB),
@@ -53,7 +56,8 @@ class TargetFollower {
 
   DeviceMapping mapping_;
   Eigen::Vector3d p_BC_;  // [m]
-  Pose X_DH_;             // Reference pose of the handle.
+  StillPose still_;
+  Pose X_DH_;  // Reference pose of the handle.
   // Reference pose of the body.
   Pose X_WB_;
   Pose target_;
