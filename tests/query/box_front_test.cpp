@@ -297,7 +297,6 @@ TEST(BoxFront, IsUsedUpByTheWholeWay) {
     // To the band and no farther, but for what rounding may leave.
     const double way = start.distance - kBand * (1.0 - 1e-9);
     X_WB.position -= way / d.norm() * d;
-    EXPECT_FALSE(from_front(A, X_WA, B, X_WB, kBand, front).empty());
     const PlacedShape placed_A(A, X_WA);
     const PlacedShape placed_B(B, X_WB);
     const detail::RestingPair resting(placed_A.path(), placed_B.path());
@@ -305,6 +304,40 @@ TEST(BoxFront, IsUsedUpByTheWholeWay) {
     const detail::FrontMotion moved(front.place(), pair, resting.state(0.0), 0.0);
     EXPECT_GE(moved.most(), way);
     EXPECT_LE(moved.most(), way + 1e-9);
+    EXPECT_FALSE(from_front(A, X_WA, B, X_WB, kBand, front).empty());
+  }
+}
+
+/// A front that begins elsewhere loses the way of each of its balls, and no more.
+TEST(BoxFront, FallsByTheWayWhereItBeginsAnew) {
+  const Shape A = rough_ball(21);
+  const Shape B = rough_ball(22);
+  test::Random random(23);
+  for (int k = 0; k < 20; ++k) {
+    const Pose X_WA{{0.0, 0.0, 0.0}, random.rotation()};
+    Pose X_WB{random.vector(2.0, 2.1), random.rotation()};
+    BoxFront front;
+    (void)from_front(A, X_WA, B, X_WB, 0.01, front);
+    X_WB.position += random.vector(0.0, 0.1);
+    X_WB.rotation = Eigen::AngleAxisd(random.uniform(0.0, 0.1), random.direction()) * X_WB.rotation;
+    const PlacedShape placed_A(A, X_WA);
+    const PlacedShape placed_B(B, X_WB);
+    const detail::RestingPair resting(placed_A.path(), placed_B.path());
+    const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), resting);
+    const detail::FrontMotion moved(front.place(), pair, resting.state(0.0), 0.0);
+    const BoxFront before = front;
+    front.rebase(pair, resting.state(0.0));
+    ASSERT_EQ(front.size(), before.size());
+    for (std::size_t group = 0; group < front.size(); ++group) {
+      if (front.group(group).live == 0) {
+        continue;
+      }
+      const double left = before.least(group) - moved.of(front.ball(group));
+      EXPECT_LE(front.least(group), left);
+      EXPECT_GE(front.least(group), left - 1e-5);
+    }
+    const detail::FrontMotion still(front.place(), pair, resting.state(0.0), 0.0);
+    EXPECT_LT(still.most(), 1e-9);
   }
 }
 

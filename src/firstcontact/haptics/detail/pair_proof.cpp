@@ -100,7 +100,6 @@ void search_part(const MovingShape& A, const MovingShape& B, HapticPair& pair,
     first_contact_within(A, B, window, workspace, options, found);
   } else {
     first_contact_by_front(pair.front, A, B, window, workspace, options, found);
-    pair.front.count_work(found.work.node_groups + found.work.steps);
   }
 }
 

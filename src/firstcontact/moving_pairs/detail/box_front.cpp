@@ -21,6 +21,10 @@ constexpr double kRounding = 1.0 + 0x1p-40;
 /// Rounding of single precision.
 constexpr float kRoundingOfFloats = 0x1p-20f;
 
+/// Growth from which a front is spent: this factor, and a few groups.
+constexpr double kGrownBy = 1.2;
+constexpr double kFewGroups = 64.0;
+
 BoxFront::Place place_of(const MovingPair& pair, const RelativeState& state) {
   // Rotations err by 22 units of 2^-53 beyond what the state charges; products add less than 30.
   const double turn_error = 0x1p-46 + state.rotation_error_A + state.rotation_error_B;
@@ -57,13 +61,35 @@ void BoxFront::clear() {
   groups_.clear();
   balls_.clear();
   least_.clear();
-  work_ = work_of_begin_ = 0;
+  size_at_begin_ = 0;
 }
 
 void BoxFront::begin(const MovingPair& pair, const RelativeState& state) {
   clear();
   place_ = place_of(pair, state);
   add(pair, root(pair.A()), root(pair.B()));
+}
+
+void BoxFront::rebase(const MovingPair& pair, const RelativeState& state) {
+  const FrontMotion motion(place_, pair, state, 0.0);
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    if (groups_[k].live == 0) {
+      continue;
+    }
+    const float fallen = round_up(motion.of(balls_[k]));
+    const auto fall = [fallen](float apart) {
+      return apart - fallen - kRoundingOfFloats * (std::abs(apart) + fallen);
+    };
+    for (float& apart : groups_[k].apart) {
+      apart = fall(apart);
+    }
+    least_[k] = fall(least_[k]);  // Monotonic: it stays the least of the lanes.
+  }
+  place_ = place_of(pair, state);
+}
+
+bool BoxFront::is_spent() const {
+  return static_cast<double>(size()) > kGrownBy * static_cast<double>(size_at_begin_) + kFewGroups;
 }
 
 unsigned BoxFront::lanes_within(std::size_t k, double distance) const {
@@ -109,11 +135,6 @@ void BoxFront::settle(std::size_t k) {
     least = std::min(least, group.apart[static_cast<std::size_t>(std::countr_zero(lanes))]);
   }
   least_[k] = least;
-}
-
-void BoxFront::count_begin(std::uint64_t work) {
-  work_of_begin_ = work;
-  work_ = 0;
 }
 
 void BoxFront::give_up() {

@@ -60,6 +60,11 @@ class FIRSTCONTACT_API BoxFront {
 
   /// Starts a new front with the roots of both hierarchies.
   void begin(const MovingPair& pair, const RelativeState& state);
+  /// Lets the front begin at this instant instead: bounds fall by as much as distances may have.
+  ///
+  /// Bounds that are raised from then on are as near as at a new begin. Others are used up by the
+  /// length of all motions since they were raised.
+  void rebase(const MovingPair& pair, const RelativeState& state);
   [[nodiscard]] const Place& place() const { return place_; }
   [[nodiscard]] std::size_t size() const { return groups_.size(); }
   [[nodiscard]] const Group& group(std::size_t k) const { return groups_[k]; }
@@ -82,10 +87,10 @@ class FIRSTCONTACT_API BoxFront {
   /// Updates the least bound of a group. Call it after bounds and lanes of the group changed.
   void settle(std::size_t k);
 
-  /// Counts work. A front that has taken as much work as its begin is spent: a new one is due.
-  void count_work(std::uint64_t work) { work_ += work; }
-  void count_begin(std::uint64_t work);
-  [[nodiscard]] bool is_spent() const { return work_ > work_of_begin_; }
+  /// Notes that a new front has been refined for the first time.
+  void end_begin() { size_at_begin_ = size(); }
+  /// Whether the front has grown so far that a new one is due: opened groups are never closed.
+  [[nodiscard]] bool is_spent() const;
 
   /// Drops the front for a while, where searches from the roots take less work.
   void give_up();
@@ -99,9 +104,8 @@ class FIRSTCONTACT_API BoxFront {
   std::vector<Group> groups_;
   std::vector<Ball> balls_;
   std::vector<float> least_;
-  std::uint64_t work_ = 0;
+  std::size_t size_at_begin_ = 0;
   int idle_ = 0;  // Number of questions for which the front stays dropped.
-  std::uint64_t work_of_begin_ = 0;
 };
 
 /// A bound of the fall of distances since a front began, for the points in a ball of B.

@@ -210,6 +210,8 @@ bool find_close_by_front(const ContactFrame& frame, const RelativeState& state, 
   const bool begins = front.is_empty() || front.is_spent();
   if (begins) {
     front.begin(frame.pair, state);
+  } else {
+    front.rebase(frame.pair, state);
   }
   const Instant instant(frame, state, band);
   std::vector<FrontTriangles>& triangles = workspace.front_triangles;
@@ -221,11 +223,8 @@ bool find_close_by_front(const ContactFrame& frame, const RelativeState& state, 
     front.give_up();
     return false;
   }
-  const std::uint64_t work = opened + triangles.size();
   if (begins) {
-    front.count_begin(work);
-  } else {
-    front.count_work(work);
+    front.end_begin();
   }
   std::vector<NearTriangles>& near = workspace.near_triangles;
   find_near(instant, triangles, opener, front, near);
