@@ -57,6 +57,35 @@ TEST(StillCoordinate, ReadsAtOnceWhereATrembleEnds) {
   }
 }
 
+/// The number of turns after which a tremble from 0 to a step is held.
+int turns_until_held(StillCoordinate& coordinate) {
+  (void)coordinate.take(0.0, kStep);
+  for (int turns = 0; turns < 10'000; ++turns) {
+    const double reading = turns % 2 == 0 ? kStep : 0.0;
+    if (coordinate.take(reading, kStep) != reading) {
+      return turns;
+    }
+  }
+  return -1;
+}
+
+// A handle that swings about a step leaves each tremble. It is held ever more rarely there, so that
+// the energy of all ends is bounded by the logarithm of time.
+TEST(StillCoordinate, TakesTwiceAsManyTurnsAfterEachTremble) {
+  StillCoordinate coordinate;
+  int before = turns_until_held(coordinate);
+  EXPECT_EQ(before, 2);
+  for (int k = 0; k < 8; ++k) {
+    (void)coordinate.take(-kStep, kStep);
+    (void)coordinate.take(2.0 * kStep, kStep);
+    const int turns = turns_until_held(coordinate);
+    EXPECT_EQ(turns, 2 * before) << k;
+    before = turns;
+  }
+  (void)coordinate.take(200.0 * kStep, kStep);  // Elsewhere it begins anew.
+  EXPECT_EQ(turns_until_held(coordinate), 2);
+}
+
 // No lag: a motion that goes on or turns back once is taken as it is read, however slow it is.
 TEST(StillCoordinate, DelaysNoMotion) {
   for (const double speed : {1e-4, 0.03, 0.7, 5.0}) {  // In steps a reading.

@@ -1,6 +1,7 @@
 #include <firstcontact/haptic_devices/detail/still_pose.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,8 +15,10 @@ using Eigen::Vector3d;
 
 /// [-]  More than the rounding of a step between two readings.
 constexpr double kRoundingOfStep = 1e-6;
-/// [-]  The times that a reading turns back until it trembles. A stroke turns back once.
-constexpr std::size_t kTurnsOfTremble = 2;
+/// [-]  The most times that a reading has to turn back until it trembles.
+constexpr std::size_t kMostTurns = 1U << 20U;
+/// [steps]  Distance from the place where a tremble ended at which that is forgotten.
+constexpr double kElsewhere = 100.0;
 
 }  // namespace
 
@@ -23,6 +26,12 @@ double StillCoordinate::take(double reading, double step) noexcept {
   const double most = (1.0 + kRoundingOfStep) * step;
   // Negated, so that a reading that is not a number is taken as it is.
   if (!has_reading_ || !(reading - least_ <= most && greatest_ - reading <= most)) {
+    if (has_reading_ && turns_ >= turns_of_tremble_) {
+      turns_of_tremble_ = std::min(2 * turns_of_tremble_, kMostTurns);
+      left_at_ = reading;
+    } else if (!(std::abs(reading - left_at_) <= kElsewhere * step)) {
+      turns_of_tremble_ = kFewestTurns;
+    }
     has_reading_ = true;
     last_ = least_ = greatest_ = reading;
     turns_ = 0;
@@ -33,9 +42,9 @@ double StillCoordinate::take(double reading, double step) noexcept {
   if (reading != last_) {
     const bool is_first = least_ == greatest_;
     const bool goes_up = reading > last_;
-    const bool was_trembling = turns_ >= kTurnsOfTremble;
+    const bool was_trembling = turns_ >= turns_of_tremble_;
     turns_ += !is_first && goes_up != goes_up_ ? 1 : 0;
-    if (!was_trembling && turns_ >= kTurnsOfTremble) {
+    if (!was_trembling && turns_ >= turns_of_tremble_) {
       now_.sum += before_.sum;  // One stay on each side.
       now_.count += before_.count;
     } else if (!was_trembling) {
@@ -49,7 +58,7 @@ double StillCoordinate::take(double reading, double step) noexcept {
   }
   now_.sum += reading;
   now_.count += 1.0;
-  return turns_ >= kTurnsOfTremble ? now_.sum / now_.count : reading;
+  return turns_ >= turns_of_tremble_ ? now_.sum / now_.count : reading;
 }
 
 Pose StillPose::take(const Pose& X_DH) noexcept {

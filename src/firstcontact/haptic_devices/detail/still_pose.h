@@ -16,6 +16,10 @@ namespace firstcontact::detail {
 /// the mean of the readings, until one of them leaves the step. Any other reading is taken as it
 /// is. So no motion is delayed that goes on, or that turns back once.
 ///
+/// A handle that swings about a step without resting there leaves it again. Each time that a
+/// tremble ends, the next one nearby takes twice as many turns. So such a handle comes to rest as
+/// it would without this, and the energy of all ends grows only with the logarithm of time.
+///
 /// Energy: behind a spring of stiffness K the end of a tremble gives the hand at most K step^2. The
 /// force differs by at most K step from that of the reading, and a reading that leaves the step is
 /// taken at once. While a tremble lasts, the n-th reading changes the mean by less than step / n. A
@@ -36,14 +40,18 @@ class StillCoordinate {
     double count = 0.0;
   };
 
+  static constexpr std::size_t kFewestTurns = 2;  // A stroke turns back once.
+
   bool has_reading_ = false;
   double last_ = 0.0;
   double least_ = 0.0;  // The readings since the last one that left a step.
   double greatest_ = 0.0;
   bool goes_up_ = false;   // The direction of the last change.
   std::size_t turns_ = 0;  // Times that a change turned back.
-  Stay before_;            // The stay before the present one.
-  Stay now_;               // The present stay; all of the tremble, while there is one.
+  std::size_t turns_of_tremble_ = kFewestTurns;
+  double left_at_ = 0.0;  // The first reading after the last tremble.
+  Stay before_;           // The stay before the present one.
+  Stay now_;              // The present stay; all of the tremble, while there is one.
 };
 
 /// The pose of a handle of six coordinates: the position, and the rotation vector.
