@@ -1,5 +1,6 @@
 #include <firstcontact/narrowphase/detail/farthest_corners.h>
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -14,81 +15,80 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<double, 8>;
 using Vector = hn::Vec<Lanes>;
 
-HWY_INLINE Vector along(const Eigen::Vector3d& n, const Vector& x, const Vector& y,
-                        const Vector& z) {
-  const Lanes d;
-  return hn::MulAdd(hn::Set(d, n.z()), z,
-                    hn::MulAdd(hn::Set(d, n.y()), y, hn::Mul(hn::Set(d, n.x()), x)));
-}
+/// Eight corners, or as many as a vector holds, from a row on.
+struct Place {
+  const double* x;
+  const double* y;
+  const double* z;
+  double row;
 
-HWY_INLINE void keep_greater(const Vector& value, const Vector& row, Vector& most, Vector& where) {
+  Place(const PointRows& corners, Eigen::Index first)
+      : x(corners.data() + first),
+        y(x + corners.rows()),
+        z(y + corners.rows()),
+        row(static_cast<double>(first)) {}
+};
+
+/// Keeps those that are farther along n than all before, lane by lane.
+HWY_INLINE void keep_farther(const Place& at, const Eigen::Vector3d& n, Vector& most,
+                             Vector& where) {
+  const Lanes d;
+  const Vector value = hn::MulAdd(hn::Set(d, n.z()), hn::LoadU(d, at.z),
+                                  hn::MulAdd(hn::Set(d, n.y()), hn::LoadU(d, at.y),
+                                             hn::Mul(hn::Set(d, n.x()), hn::LoadU(d, at.x))));
   const auto more = hn::Gt(value, most);
   most = hn::IfThenElse(more, value, most);
-  where = hn::IfThenElse(more, row, where);
+  where = hn::IfThenElse(more, hn::Iota(d, at.row), where);
 }
 
 HWY_INLINE Eigen::Index first_of_greatest(const Vector& most, const Vector& where) {
   const Lanes d;
-  HWY_ALIGN double values[8];
-  HWY_ALIGN double rows[8];
-  hn::Store(most, d, values);
-  hn::Store(where, d, rows);
-  std::size_t best = 0;
-  for (std::size_t lane = 1; lane < hn::Lanes(d); ++lane) {
-    const bool ahead =
-        values[lane] > values[best] || (values[lane] == values[best] && rows[lane] < rows[best]);
-    best = ahead ? lane : best;
-  }
-  return static_cast<Eigen::Index>(rows[best]);
-}
-
-/// Calls use(row, x, y, z) for all corners; some of the last ones come twice.
-template <class Use>
-HWY_INLINE void for_each(const PointRows& corners, const Use& use) {
-  const Lanes d;
-  const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
-  const Eigen::Index count = corners.rows();
-  const double* x = corners.data();
-  const double* y = x + count;
-  const double* z = y + count;
-  const auto take = [&](Eigen::Index row) HWY_ATTR {
-    use(hn::Iota(d, static_cast<double>(row)), hn::LoadU(d, x + row), hn::LoadU(d, y + row),
-        hn::LoadU(d, z + row));
-  };
-  Eigen::Index row = 0;
-  for (; row + lanes <= count; row += lanes) {
-    take(row);
-  }
-  if (row < count) {
-    take(count - lanes);
-  }
+  const auto is_greatest = hn::Eq(most, hn::MaxOfLanes(d, most));
+  const Vector no_row = hn::Set(d, std::numeric_limits<double>::infinity());
+  const Vector rows = hn::IfThenElse(is_greatest, where, no_row);
+  return static_cast<Eigen::Index>(hn::GetLane(hn::MinOfLanes(d, rows)));
 }
 
 std::ptrdiff_t LeastRows() { return static_cast<std::ptrdiff_t>(hn::Lanes(Lanes())); }
 
+/// Both halves of the corners take turns, as each comparison waits for the one before it.
 void FarthestAlongOne(const PointRows& corners, const Eigen::Vector3d* n, Eigen::Index* rows) {
   const Lanes d;
+  const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
+  const Eigen::Index last = corners.rows() - lanes;
+  const Eigen::Index half = corners.rows() / (2 * lanes) * lanes;
   Vector most = hn::Set(d, -std::numeric_limits<double>::infinity());
   Vector where = hn::Zero(d);
-  for_each(corners, [&](const Vector& row, const Vector& x, const Vector& y, const Vector& z)
-                        HWY_ATTR { keep_greater(along(n[0], x, y, z), row, most, where); });
-  rows[0] = first_of_greatest(most, where);
+  Vector most_later = most;
+  Vector where_later = where;
+  for (Eigen::Index row = 0; row < half; row += lanes) {
+    keep_farther({corners, row}, n[0], most, where);
+    keep_farther({corners, half + row}, n[0], most_later, where_later);
+  }
+  for (Eigen::Index row = 2 * half; row < corners.rows(); row += lanes) {
+    keep_farther({corners, std::min(row, last)}, n[0], most_later, where_later);
+  }
+  const auto more = hn::Gt(most_later, most);
+  rows[0] = first_of_greatest(hn::IfThenElse(more, most_later, most),
+                              hn::IfThenElse(more, where_later, where));
 }
 
 void FarthestAlongThree(const PointRows& corners, const Eigen::Vector3d* n, Eigen::Index* rows) {
   const Lanes d;
+  const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
+  const Eigen::Index last = corners.rows() - lanes;
   Vector most_0 = hn::Set(d, -std::numeric_limits<double>::infinity());
   Vector most_1 = most_0;
   Vector most_2 = most_0;
   Vector where_0 = hn::Zero(d);
   Vector where_1 = where_0;
   Vector where_2 = where_0;
-  for_each(corners,
-           [&](const Vector& row, const Vector& x, const Vector& y, const Vector& z) HWY_ATTR {
-             keep_greater(along(n[0], x, y, z), row, most_0, where_0);
-             keep_greater(along(n[1], x, y, z), row, most_1, where_1);
-             keep_greater(along(n[2], x, y, z), row, most_2, where_2);
-           });
+  for (Eigen::Index row = 0; row < corners.rows(); row += lanes) {
+    const Place at(corners, std::min(row, last));
+    keep_farther(at, n[0], most_0, where_0);
+    keep_farther(at, n[1], most_1, where_1);
+    keep_farther(at, n[2], most_2, where_2);
+  }
   rows[0] = first_of_greatest(most_0, where_0);
   rows[1] = first_of_greatest(most_1, where_1);
   rows[2] = first_of_greatest(most_2, where_2);
