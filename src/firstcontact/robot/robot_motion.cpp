@@ -336,16 +336,29 @@ RobotMotion::RobotMotion(RobotModel model, std::map<std::string, JointMotion> jo
 
 RobotMotion RobotMotion::with(std::vector<std::pair<std::size_t, JointMotion>> joints) const {
   const FloatEnvironmentGuard guard;
-  auto data = std::make_shared<Data>(*data_);
   std::vector<bool> is_given(model_.joints().size(), false);
+  for (const auto& [joint, motion] : joints) {
+    is_given[joint] = true;
+  }
+  auto data = std::make_shared<Data>(Data{.motions = std::vector<AnyMotion>(is_given.size()),
+                                          .base = data_->base,
+                                          .base_pieces = data_->base_pieces,
+                                          .joint_pieces = std::vector<Pieces>(is_given.size()),
+                                          .breaks = {}});
+  for (std::size_t j = 0; j < is_given.size(); ++j) {
+    if (!is_given[j]) {
+      data->motions[j] = data_->motions[j];
+    }
+  }
   for (auto& [joint, motion] : joints) {
     set(model_.joints()[joint], std::move(motion), data->motions[joint]);
-    is_given[joint] = true;
   }
   for (std::size_t j = 0; j < is_given.size(); ++j) {
     if (is_given[source_of(model_, j)]) {
       require_sizes(model_, data->motions, j);
       data->joint_pieces[j] = pieces_of(model_, data->motions, j);
+    } else {
+      data->joint_pieces[j] = data_->joint_pieces[j];
     }
   }
   data->find_breaks();
