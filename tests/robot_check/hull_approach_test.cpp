@@ -37,8 +37,8 @@ struct Pair {
 
   [[nodiscard]] FirstContactResult early(double by, const FirstContactOptions& options,
                                          const TimeWindow& window = {}) const {
-    const std::vector<Vector3d> corners_A = detail::hull_corners(A);
-    const std::vector<Vector3d> corners_B = detail::hull_corners(B);
+    const detail::HullCorners corners_A = detail::hull_corners(A);
+    const detail::HullCorners corners_B = detail::hull_corners(B);
     detail::LinkWorkspace workspace;
     FirstContactResult result;
     detail::first_contact_early({A, X_FA}, {B, X_FB}, detail::hull_of(A, B, corners_A),
@@ -58,10 +58,11 @@ struct Pair {
       return LinkBall{motion, shape.hierarchy().centre, shape.hierarchy().radius * (1.0 + 1e-12)};
     };
     LinkPairMotion motion(ball(A, X_FA), ball(B, X_FB), scratch);
-    const std::vector<Vector3d> corners_A = detail::hull_corners(A);
-    const std::vector<Vector3d> corners_B = detail::hull_corners(B);
-    return detail::hulls_apart_until(detail::hull_of(A, B, corners_A),
-                                     detail::hull_of(B, A, corners_B), motion, window, threshold);
+    const detail::HullCorners corners_A = detail::hull_corners(A);
+    const detail::HullCorners corners_B = detail::hull_corners(B);
+    return detail::follow_hulls(detail::hull_of(A, B, corners_A), detail::hull_of(B, A, corners_B),
+                                motion, window, threshold, 1e-9, 0.0)
+        .t;
   }
 };
 

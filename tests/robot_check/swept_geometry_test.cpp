@@ -89,6 +89,7 @@ detail::BoundedGeometry geometry_of(const Shape& shape) {
   const ShapeBounds& bounds = shape.bounds();
   detail::BoundedGeometry geometry;
   geometry.shape = &shape;
+  geometry.bounds = &bounds;
   geometry.box = {bounds.centre, bounds.axes, bounds.half_extents, shape.radius()};
   geometry.reach = bounds.reach + shape.radius();
   return geometry;

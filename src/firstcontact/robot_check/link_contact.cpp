@@ -8,6 +8,7 @@
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot_check/detail/convex_meeting.h>
 #include <firstcontact/robot_check/detail/link_query.h>
 #include <firstcontact/robot_check/link_pair_motion.h>
 
@@ -104,17 +105,31 @@ void detail::first_contact_early(const MovingLink& A, const MovingLink& B, const
                                  FirstContactResult& result) {
   ask_in_order(A, B, window, workspace.places, [&](const ShapePair& pair) {
     const bool swapped = &pair.A != &A.shape;
-    const double begin =
-        hulls_apart_until(swapped ? hull_B : hull_A, swapped ? hull_A : hull_B, pair.motion, window,
-                          options.margin + A.shape.radius() + B.shape.radius());
-    if (window.begin < window.end && begin >= window.end) {
+    const HullApproach hulls = follow_hulls(
+        swapped ? hull_B : hull_A, swapped ? hull_A : hull_B, pair.motion, window,
+        options.margin + A.shape.radius() + B.shape.radius(), options.tolerance, early);
+    result.reason = UndecidedReason::none;
+    result.t = hulls.t;
+    if (window.begin < window.end && hulls.t >= window.end) {
       result.verdict = Verdict::free;
-      result.reason = UndecidedReason::none;
       result.t = window.end;
       return;
     }
-    first_contact_early(pair, {begin, window.end}, early, workspace.queries, options, result);
+    if (hulls.t_contact) {
+      result.verdict = Verdict::contact;
+      result.t_upper = hulls.t_contact;
+      return;
+    }
+    first_contact_early(pair, {hulls.t, window.end}, early, workspace.queries, options, result);
   });
+}
+
+bool detail::has_vertex_inside(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
+                               const ShapeHull& hull_B, double t, LinkWorkspace& workspace) {
+  const FloatEnvironmentGuard guard;
+  LinkPairMotion motion(ball_of(A), ball_of(B), workspace.places, t);
+  motion.enter(t);
+  return has_vertex_inside(hull_A, hull_B, motion.state(t));
 }
 
 void detail::first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,

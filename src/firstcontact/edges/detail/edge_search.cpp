@@ -72,6 +72,10 @@ EdgeFound EdgeSearch::found_by(const GeometryCandidate& candidate,
 }
 
 bool EdgeSearch::is_contact_at(const GeometryCandidate& instant) {
+  GeometrySearch search(timeline_, instant, options_, workspace_);
+  if (!instant.hold && search.has_vertex_inside(instant.window.begin)) {
+    return true;
+  }
   return is_contact(ask(instant, instant.window).verdict);
 }
 

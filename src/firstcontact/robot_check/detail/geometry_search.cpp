@@ -77,9 +77,9 @@ FirstContactResult GeometrySearch::first_contact(const TimeWindow& window) {
 
 FirstContactResult GeometrySearch::first_contact_early(const TimeWindow& window, double early) {
   const auto& [a, b] = candidate_.geometries;
-  const std::vector<Eigen::Vector3d>& corners_A = timeline_.geometries()[a].corners;
-  const std::vector<Eigen::Vector3d>& corners_B = timeline_.geometries()[b].corners;
-  if (corners_A.empty() || corners_B.empty()) {
+  const HullCorners& corners_A = timeline_.geometries()[a].corners;
+  const HullCorners& corners_B = timeline_.geometries()[b].corners;
+  if (corners_A.points.empty() || corners_B.points.empty()) {
     return first_contact(window);
   }
   FirstContactResult result;
@@ -133,6 +133,15 @@ bool GeometrySearch::is_farther(double t, double distance) {
     return false;
   }
   return first_contact({t, t}, distance, 1e-9 + 1e-3 * distance).verdict == Verdict::free;
+}
+
+bool GeometrySearch::has_vertex_inside(double t) {
+  const auto& [a, b] = candidate_.geometries;
+  const HullCorners& corners_A = timeline_.geometries()[a].corners;
+  const HullCorners& corners_B = timeline_.geometries()[b].corners;
+  return !corners_A.points.empty() && !corners_B.points.empty() &&
+         detail::has_vertex_inside({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
+                                   hull_of(B_, A_, corners_B), t, workspace_);
 }
 
 bool GeometrySearch::is_inside(double t) {

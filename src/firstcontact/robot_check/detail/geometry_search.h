@@ -61,6 +61,9 @@ class GeometrySearch {
   /// Whether the two are proven farther apart at t, which costs less than the distance.
   [[nodiscard]] bool is_farther(double t, double distance);
 
+  /// Whether a vertex of one is provably inside of the other, a solid. False says nothing.
+  [[nodiscard]] bool has_vertex_inside(double t);
+
   /// Whether one is inside of the other, a solid.
   [[nodiscard]] bool is_inside(double t);
 

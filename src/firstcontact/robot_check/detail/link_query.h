@@ -29,6 +29,11 @@ void first_contact_early(const MovingLink& A, const MovingLink& B, const ShapeHu
                          LinkWorkspace& workspace, const FirstContactOptions& options,
                          FirstContactResult& result);
 
+/// Whether one of the two is provably in the other at t: see has_vertex_inside().
+[[nodiscard]] bool has_vertex_inside(const MovingLink& A, const MovingLink& B,
+                                     const ShapeHull& hull_A, const ShapeHull& hull_B, double t,
+                                     LinkWorkspace& workspace);
+
 /// Finds the first contact as detail::first_contact_held() of a pair of shapes.
 void first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                         const Hold& hold, LinkWorkspace& workspace,

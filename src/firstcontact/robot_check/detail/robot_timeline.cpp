@@ -6,7 +6,6 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/shape_bounds.h>
-#include <firstcontact/robot_check/detail/hull_approach.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -95,6 +94,7 @@ void RobotTimeline::add_geometries(std::size_t member) {
         ball_around(geometries[g].shape),
         box_around(geometries[g].shape),
         (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
+    geometry.bounds = &geometries[g].shape.bounds();
     geometry.corners = hull_corners(geometries[g].shape);
     if (link) {
       seats_.push_back({seat_on_link(*link, scene_.paths(member)[g], 1.0)});

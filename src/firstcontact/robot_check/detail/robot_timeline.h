@@ -12,9 +12,11 @@
 #include <span>
 #include <vector>
 
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot_check/detail/hull_approach.h>
 #include <firstcontact/robot_check/robot_scene.h>
 
 namespace firstcontact::detail {
@@ -28,7 +30,8 @@ struct BoundedGeometry {
   RoundedBox box;      ///< Box around the shape likewise.
   double reach = 0.0;  ///< [m]  Reach of the thickened shape from the centre of the box.
   bool rests = false;  ///< Whether its frame S, and so its bounds, rest over the whole step.
-  std::vector<Eigen::Vector3d> corners = {};  ///< Corners as hull_corners() has them.
+  const ShapeBounds* bounds = nullptr;  ///< Those of the shape.
+  HullCorners corners = {};             ///< Corners as hull_corners() has them.
 };
 
 /// Two members that are tested, except at the times of `pauses`.

@@ -37,7 +37,7 @@ void enclose(SweptGeometry& swept, std::span<const GeometryPlace> places) {
 }
 
 PlacedPolytope hull(const SweptGeometry& swept, const GeometryPlace& place) {
-  return {swept.geometry->shape->bounds().corners, place.R_FS, place.centre};
+  return {swept.geometry->bounds->corners, place.R_FS, place.centre};
 }
 
 double thickness(const SweptGeometry& A, const SweptGeometry& B, double error) {
@@ -74,7 +74,7 @@ GeometryPlace GeometryTrack::place(int k) const {
   GeometryPlace place{L.R * mount_.R_LS, L.p + L.R * mount_.p_LC, 0.0};
   place.error =
       (L.position_error + L.rounding + (L.rotation_error + 2.0 * kRotationStep) * mount_.far +
-       geometry_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
+       geometry_->bounds->error + kRounding * (place.centre.norm() + mount_.far)) *
       kUp;
   if (frame_ != TreePoses::kWorld) {
     const FramePlace& F = mount_.course->place(frame_, k);
