@@ -112,7 +112,7 @@ class Followed {
   Followed(const Shape& shape, const Vector3d& p_WB)
       : geometry_(geometry_of(shape)),
         path_(JointPath::rigid(precise(Pose{p_WB, Eigen::Quaterniond::Identity()}))),
-        course_({{detail::TreePoses::kWorld, &path_}}, {{0.0, 1.0}}),
+        course_(path_, {{0.0, 1.0}}),
         track_(geometry_, detail::GeometryMount(geometry_, course_), detail::TreePoses::kWorld),
         swept_(track_.rest()) {}
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -96,14 +97,13 @@ class Search {
       return {};
     }
     join_windows();
-    std::vector<GeometryCandidate> whole;
-    whole.swap(found_);
-    for (GeometryCandidate& candidate : whole) {
+    const std::vector<GeometryCandidate> whole = std::exchange(found_, {});
+    for (const GeometryCandidate& candidate : whole) {
       if (has_tracking_errors_) {
         add_thresholds(candidate, 0);
       } else {
-        candidate.threshold = margin_of(candidate.pair);
         found_.push_back(candidate);
+        found_.back().threshold = margin_of(candidate.pair);
       }
     }
     std::sort(found_.begin(), found_.end());
@@ -163,9 +163,8 @@ class Search {
         continue;
       }
       Open open = still_open(part);
-      std::vector<Question> first = open.apart;
-      first.insert(first.end(), open.in_first.begin(), open.in_first.end());
-      Part halves[] = {{part.window.first_half(), std::move(first)},
+      open.in_first.insert(open.in_first.begin(), open.apart.begin(), open.apart.end());
+      Part halves[] = {{part.window.first_half(), std::move(open.in_first)},
                        {part.window.second_half(), std::move(open.apart)}};
       if (window_probe_ != nullptr) {
         parts.insert(parts.begin(), std::begin(halves), std::end(halves));
@@ -232,8 +231,7 @@ class Search {
   /// Probes candidates of one instant, the deepest first, until the probe finds a contact.
   void probe(std::vector<GeometryCandidate>& suspects) {
     std::sort(suspects.begin(), suspects.end());
-    const auto hit = std::find_if(suspects.begin(), suspects.end(),
-                                  [&](const auto& suspect) { return (*probe_)(suspect); });
+    const auto hit = std::ranges::find_if(suspects, std::cref(*probe_));
     if (hit != suspects.end()) {
       contact_ = *hit;
     }
@@ -368,11 +366,12 @@ class Search {
     std::optional<TreePoses>& course = robots_[index];
     if (!course) {
       const RobotMotion& motion = timeline_.scene().robot_motion(index);
-      std::vector<TreePoses::Node> nodes = {{TreePoses::kWorld, &motion.base_path(middle_)}};
+      std::pmr::vector<TreePoses::Node> nodes({{TreePoses::kWorld, &motion.base_path(middle_)}},
+                                              &memory_.resource());
       for (const auto& [parent, joint] : std::span(trees_[index].nodes).subspan(1)) {
         nodes.push_back({parent, motion.joint_path(joint, middle_)});
       }
-      course.emplace(nodes, grid_);
+      course.emplace(nodes, grid_, memory_.resource());
     }
     return *course;
   }
@@ -383,13 +382,13 @@ class Search {
       return {timeline_.geometries()[geometry], robot(link->robot),
               trees_[link->robot].node_of_link[link->link], *path};
     }
-    bodies_.emplace_back(std::vector<TreePoses::Node>{{TreePoses::kWorld, path}}, grid_);
+    bodies_.emplace_back(*path, grid_);
     return {timeline_.geometries()[geometry], bodies_.back()};
   }
 
   std::size_t place(std::size_t geometry, const std::optional<RobotLink>& frame) {
     placed_.emplace_back(
-        timeline_.geometries()[geometry], mount(geometry),
+        memory_.resource(), timeline_.geometries()[geometry], mount(geometry),
         frame ? trees_[frame->robot].node_of_link[frame->link] : TreePoses::kWorld, grid_,
         has_tracking_errors_ ? std::optional(timeline_.path(geometry, middle_, frame))
                              : std::nullopt);
@@ -446,9 +445,10 @@ class Search {
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
   const std::vector<std::optional<SweptGeometry>>& resting_;
+  SearchMemory memory_;
   std::vector<std::optional<TreePoses>> robots_;
   std::deque<TreePoses> bodies_;
-  std::deque<PlacedGeometry> placed_;
+  std::pmr::deque<PlacedGeometry> placed_{&memory_.resource()};
   std::vector<std::optional<std::size_t>> in_world_;  // For each geometry, where it is placed.
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
   std::vector<GeometryCandidate> found_;
@@ -469,7 +469,7 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   for (std::size_t k = 0; k < resting_.size(); ++k) {
     const BoundedGeometry& geometry = timeline.geometries()[k];
     if (geometry.rests) {
-      TreePoses course({{TreePoses::kWorld, timeline.seat_of(k, 0.5).path}}, step);
+      TreePoses course(*timeline.seat_of(k, 0.5).path, step);
       resting_[k] =
           GeometryTrack(geometry, GeometryMount(geometry, course), TreePoses::kWorld).rest();
     }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <memory_resource>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,10 +22,16 @@ namespace firstcontact::detail {
 /// A geometry in one frame over a piece of time. Windows share the places at common times.
 class PlacedGeometry {
  public:
-  /// @param path  its path in F, for tracking errors
-  PlacedGeometry(const BoundedGeometry& geometry, const GeometryMount& mount, std::size_t frame,
-                 const TimeGrid& grid, std::optional<GeometryPath> path)
-      : geometry_(&geometry), track_(geometry, mount, frame), grid_(grid), path_(std::move(path)) {
+  /// @param memory  for the places
+  /// @param path    its path in F, for tracking errors
+  PlacedGeometry(std::pmr::memory_resource& memory, const BoundedGeometry& geometry,
+                 const GeometryMount& mount, std::size_t frame, const TimeGrid& grid,
+                 std::optional<GeometryPath> path)
+      : geometry_(&geometry),
+        track_(geometry, mount, frame),
+        grid_(grid),
+        path_(std::move(path)),
+        places_(&memory) {
     known_.fill(-1);
     if (track_.rests()) {
       swept_ = track_.rest();
@@ -66,9 +74,25 @@ class PlacedGeometry {
   std::optional<GeometryPath> path_;
   std::array<std::int16_t, GridWindow::kSize + 1> known_ =
       {};  // Indices into places_; < 0 for none.
-  std::vector<GeometryPlace> places_;
+  std::pmr::vector<GeometryPlace> places_;
   GridWindow window_ = {0, 0};  // Window of swept_.
   SweptGeometry swept_;
+};
+
+/// Memory of a search, which is asked for once for most edges of planners.
+class SearchMemory {
+ public:
+  SearchMemory() = default;
+  SearchMemory(const SearchMemory&) = delete;
+  SearchMemory& operator=(const SearchMemory&) = delete;
+
+  [[nodiscard]] std::pmr::memory_resource& resource() { return memory_; }
+
+ private:
+  static constexpr std::size_t kBytes = std::size_t{3} << 14;  // Two dozen geometries, a robot.
+
+  alignas(std::max_align_t) std::array<std::byte, kBytes> first_;
+  std::pmr::monotonic_buffer_resource memory_{first_.data(), kBytes};
 };
 
 }  // namespace firstcontact::detail

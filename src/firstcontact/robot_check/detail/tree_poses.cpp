@@ -1,6 +1,7 @@
 #include <firstcontact/robot_check/detail/tree_poses.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include <Eigen/Geometry>
@@ -34,7 +35,10 @@ FramePlace pass(const FramePlace& parent, const JointState& joint) {
 
 }  // namespace
 
-TreePoses::TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid) : grid_(grid) {
+TreePoses::TreePoses(std::span<const Node> nodes, const TimeGrid& grid,
+                     std::pmr::memory_resource& memory)
+    : grid_(grid), joints_(&memory), levers_(&memory), places_(&memory) {
+  first_.fill(kNone);
   joints_.reserve(nodes.size());
   for (const Node& node : nodes) {
     assert(node.parent == kWorld || node.parent < joints_.size());
@@ -44,26 +48,33 @@ TreePoses::TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid) : gri
   }
 }
 
+TreePoses::TreePoses(const JointPath& path, const TimeGrid& grid)
+    : TreePoses(std::array{Node{kWorld, &path}}, grid) {}
+
 const FramePlace& TreePoses::place(std::size_t node, int k) {
-  const std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
-  if (places.empty()) {
+  const std::uint32_t& first = first_[static_cast<std::size_t>(k)];
+  if (first == kNone) {
     place_all(k);
   }
-  return places[node];
+  return places_[first + node];
 }
 
 void TreePoses::place_all(int k) {
   const FramePlace world;
   const double t = grid_.at(k);
-  std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
-  places.reserve(joints_.size());
+  const std::size_t first = places_.size();
+  first_[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(first);
+  places_.reserve(std::max(kFewTimes * joints_.size(), first + joints_.size()));
+  if (k == TimeGrid::kMiddle) {
+    levers_.reserve(joints_.size());
+  }
   for (const auto& [joint, rests] : joints_) {
-    const FramePlace& parent = joint.parent == kWorld ? world : places[joint.parent];
+    const FramePlace& parent = joint.parent == kWorld ? world : places_[first + joint.parent];
     const JointState state = joint.path->state(t);
     if (k == TimeGrid::kMiddle) {
       add_lever(parent, state, *joint.path);
     }
-    places.push_back(pass(parent, state));
+    places_.push_back(pass(parent, state));
   }
 }
 

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory_resource>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,12 +42,17 @@ class TreePoses {
     const JointPath* path = nullptr;  ///< Path from the parent; smooth in the piece.
   };
 
-  TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid);
+  /// @param memory  outlives the object
+  TreePoses(std::span<const Node> nodes, const TimeGrid& grid,
+            std::pmr::memory_resource& memory = *std::pmr::get_default_resource());
+
+  /// A body that is the only node.
+  TreePoses(const JointPath& path, const TimeGrid& grid);
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] std::size_t parent(std::size_t node) const { return joints_[node].node.parent; }
 
-  /// The place of a node at a time of the grid.
+  /// The place of a node at a time of the grid. Valid until a place at another time is needed.
   [[nodiscard]] const FramePlace& place(std::size_t node, int k);
 
   /// Whether a node rests in the world.
@@ -73,11 +81,14 @@ class TreePoses {
   void place_all(int k);
   void add_lever(const FramePlace& parent, const JointState& state, const JointPath& path);
 
+  static constexpr std::size_t kFewTimes = 5;  // Those of the piece and its halves.
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
   TimeGrid grid_;
-  std::vector<Joint> joints_;
-  std::vector<Lever> levers_;  // Empty until a place at the middle is needed.
-  // Each is empty likewise.
-  std::array<std::vector<FramePlace>, GridWindow::kSize + 1> places_;
+  std::pmr::vector<Joint> joints_;
+  std::pmr::vector<Lever> levers_;  // Empty until a place at the middle is needed.
+  std::pmr::vector<FramePlace> places_;
+  std::array<std::uint32_t, GridWindow::kSize + 1> first_;  // Where those of a time begin; or none.
 };
 
 }  // namespace firstcontact::detail
