@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/robot_check/detail/hull_approach.h>
 #include <firstcontact/robot_check/detail/link_query.h>
