@@ -1,14 +1,20 @@
 #include <firstcontact/robot_check/detail/geometry_search.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
 
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/float_environment.h>
 #include <firstcontact/moving_pairs/detail/moving_pair.h>
+#include <firstcontact/narrowphase/convex_closest.h>
+#include <firstcontact/narrowphase/convex_pair.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/robot_check/link_pair_motion.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -23,6 +29,42 @@ Eigen::Vector3d vertex_at(const Shape& shape, std::uint32_t vertex, double t) {
   const std::span<const Eigen::Vector3d> to = shape.vertices_to();
   return to.empty() ? from
                     : Eigen::Vector3d((1.0 - t) * from + t * (to[vertex] - shape.translation_to()));
+}
+
+/// [m]  The distance of a triangle from the core of a convex set at a pose, rounded.
+double distance_of_set(const Shape& set, const LinkPose& X_FS, const Triangle& triangle) {
+  const std::array<Eigen::Vector3d, 3> corners = {
+      Eigen::Vector3d::Zero(), triangle[1] - triangle[0], triangle[2] - triangle[0]};
+  const ConvexCore core{.kind = ConvexKind::hull,
+                        .points = corners,
+                        .reach = std::max(corners[1].norm(), corners[2].norm())};
+  const ConvexCore of_set = set.convex_core();
+  const PlacedConvex A{
+      .core = of_set, .R = X_FS.R_FL, .centre = X_FS.p_OL + X_FS.R_FL * set.hierarchy().centre};
+  const PlacedConvex B{.core = core, .centre = triangle[0]};
+  ConvexGuess guess;
+  guess.n = (B.centre - A.centre).stableNormalized();
+  return closest_points(A, B, {}, guess).distance;
+}
+
+LinkBall ball_of_link(const MovingLink& link) {
+  const Hierarchy& hierarchy = link.shape.hierarchy();
+  return {link.X_FS, hierarchy.centre, hierarchy.radius * (1.0 + 0x1p-44)};
+}
+
+/// Whether the hulls of two shapes are proven farther apart than a distance at t.
+bool hulls_are_farther(const MovingLink& A, const MovingLink& B, const ShapeHull& hull_A,
+                       const ShapeHull& hull_B, double t, double distance, LinkScratch& scratch) {
+  const FloatEnvironmentGuard guard;
+  LinkPairMotion motion(ball_of_link(A), ball_of_link(B), scratch, t);
+  motion.enter(t);
+  const double threshold =
+      distance + A.shape.radius() + B.shape.radius() + hull_A.error + hull_B.error;
+  ConvexGuess guess;
+  return convex_first_contact({hull_A.core, hull_B.core, motion},
+                              {.threshold = threshold, .t_begin = t, .t_end = t, .most_steps = 1},
+                              guess)
+             .verdict == ConvexVerdict::free;
 }
 
 }  // namespace
@@ -103,6 +145,20 @@ FirstContactResult GeometrySearch::features_within(double t, double distance) {
 
 FirstContactResult GeometrySearch::first_contact(const TimeWindow& window, double margin,
                                                  double tolerance) {
+  const auto& [a, b] = candidate_.geometries;
+  const HullCorners& corners_A = timeline_.geometries()[a].corners;
+  const HullCorners& corners_B = timeline_.geometries()[b].corners;
+  if (window.begin < window.end && !corners_A.points.empty() && !corners_B.points.empty()) {
+    FirstContactResult result;
+    detail::first_contact_early({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
+                                hull_of(B_, A_, corners_B), window, 0.0, workspace_,
+                                {.margin = margin,
+                                 .tolerance = tolerance,
+                                 .contacts = ContactState::none,
+                                 .budget = options_.budget},
+                                result);
+    return result;
+  }
   return ask(window, {.margin = margin, .tolerance = tolerance, .contacts = ContactState::none});
 }
 
@@ -111,8 +167,10 @@ DistanceResult GeometrySearch::nearest(double t) {
 }
 
 double GeometrySearch::distance_of_triangles(const Contact& contact, double t) {
-  if (is_asked_as_convex(A_, B_) || is_asked_as_convex(B_, A_)) {
-    return nearest(t).distance;  // The triangles of a curved shape only enclose it.
+  const bool A_is_set = is_asked_as_convex(A_, B_);
+  const bool B_is_set = is_asked_as_convex(B_, A_);
+  if (A_is_set && B_is_set) {
+    return nearest(t).distance;
   }
   const auto placed = [t](const Shape& shape, const LinkMotion& X_FS, std::uint32_t triangle) {
     const LinkPose pose = X_FS.at(t).pose(t);
@@ -122,15 +180,32 @@ double GeometrySearch::distance_of_triangles(const Contact& contact, double t) {
     }
     return corners;
   };
-  const double distance = triangle_distance(placed(A_, X_FA_, contact.feature_A.triangle),
-                                            placed(B_, X_FB_, contact.feature_B.triangle))
-                              .distance;
+  double distance = 0.0;
+  if (A_is_set) {
+    distance =
+        distance_of_set(A_, X_FA_.at(t).pose(t), placed(B_, X_FB_, contact.feature_B.triangle));
+  } else if (B_is_set) {
+    distance =
+        distance_of_set(B_, X_FB_.at(t).pose(t), placed(A_, X_FA_, contact.feature_A.triangle));
+  } else {
+    distance = triangle_distance(placed(A_, X_FA_, contact.feature_A.triangle),
+                                 placed(B_, X_FB_, contact.feature_B.triangle))
+                   .distance;
+  }
   return std::max(0.0, distance - A_.radius() - B_.radius());
 }
 
 bool GeometrySearch::is_farther(double t, double distance) {
   if (!std::isfinite(distance)) {
     return false;
+  }
+  const auto& [a, b] = candidate_.geometries;
+  const HullCorners& corners_A = timeline_.geometries()[a].corners;
+  const HullCorners& corners_B = timeline_.geometries()[b].corners;
+  if (!corners_A.points.empty() && !corners_B.points.empty() &&
+      hulls_are_farther({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
+                        hull_of(B_, A_, corners_B), t, distance, workspace_.places)) {
+    return true;
   }
   return first_contact({t, t}, distance, 1e-9 + 1e-3 * distance).verdict == Verdict::free;
 }

@@ -55,7 +55,7 @@ class GeometrySearch {
 
   /// [m]  The distance, at a time of the piece, of the triangles that a contact of the two names.
   ///
-  /// It is no less than that of the geometries. Beside a curved shape it equals distance().
+  /// It is no less than that of the geometries. A curved shape counts as the set that it is.
   [[nodiscard]] double distance_of_triangles(const Contact& contact, double t);
 
   /// Whether the two are proven farther apart at t, which costs less than the distance.
