@@ -60,7 +60,7 @@ class OurFlight final : public Flight {
       return next < steps_.size() ? std::optional(steps_[next++]) : std::nullopt;
     };
     const RunVerification found = verify_run(simulator_.header(), steps);
-    return found.verdict == RunVerdict::proven && found.time_lost == 0.0;
+    return found.verdict == ProofVerdict::proven && found.time_lost == 0.0;
   }
 
  private:

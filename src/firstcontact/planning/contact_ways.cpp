@@ -105,9 +105,6 @@ ProvenWay ContactWays::passage(RandomNumbers& random) const {
   if (!worker.gaps) {
     worker.gaps.emplace(data_->edges->scene());
   }
-  if (!worker.gaps->may_draw()) {
-    return {};
-  }
   const std::optional<detail::GapSampler::Place> place = worker.gaps->draw(random);
   if (!place || !space.holds(place->q) || !data_->edges->is_free(place->q)) {
     return {};

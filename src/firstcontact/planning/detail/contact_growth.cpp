@@ -25,12 +25,16 @@ constexpr double kFewEdges = 10.0;
 
 ContactGrowth::ContactGrowth(PlanWork& work, ContactUse use, double range)
     : work_(work), use_(use), range_(range) {
-  if (use != ContactUse::none) {
-    steering_.emplace(work, work.scene(), range);
-  }
   if (use == ContactUse::sample || use == ContactUse::both) {
     gaps_.emplace(work.scene());
   }
+}
+
+ContactSteering& ContactGrowth::steering() {
+  if (!steering_) {
+    steering_.emplace(work_, work_.scene(), range_);
+  }
+  return *steering_;
 }
 
 void ContactGrowth::next(bool is_stuck, RandomNumbers& random) {
@@ -51,8 +55,8 @@ void ContactGrowth::next(bool is_stuck, RandomNumbers& random) {
 }
 
 bool ContactGrowth::is_due() const {
-  if (!steering_ || is_stuck_) {
-    return steering_.has_value();
+  if (use_ == ContactUse::none || is_stuck_) {
+    return use_ != ContactUse::none;
   }
   const std::size_t others = work_.counts().edges_checked - spent_ - leaving_;
   double allowed = -kFewEdges;
@@ -117,8 +121,8 @@ std::optional<ContactGrowth::Followed> ContactGrowth::go(PlanTree& tree, std::si
     }
     const Configuration at_contact = tree[node];
     ++work_.counts().contacts.slides;
-    const ContactWay way = use_ == ContactUse::sample ? steering_->lift(at_contact)
-                                                      : steering_->slide(at_contact, target);
+    const ContactWay way = use_ == ContactUse::sample ? steering().lift(at_contact)
+                                                      : steering().slide(at_contact, target);
     const std::optional<std::size_t> end = take(tree, node, way);
     if (!end && node != from) {
       tree.show(node);
@@ -128,7 +132,7 @@ std::optional<ContactGrowth::Followed> ContactGrowth::go(PlanTree& tree, std::si
 }
 
 std::vector<std::array<Eigen::VectorXd, 2>> ContactGrowth::ways_out(const Configuration& from) {
-  return use_ == ContactUse::both ? steering_->ways_out(from)
+  return use_ == ContactUse::both ? steering().ways_out(from)
                                   : std::vector<std::array<Eigen::VectorXd, 2>>{};
 }
 
@@ -137,10 +141,10 @@ std::optional<ContactGrowth::Left> ContactGrowth::leave(PlanTree& tree, std::siz
   ++work_.counts().contacts.pushes;
   const std::size_t before = work_.counts().edges_checked;
   const Configuration begin = tree[from];
-  const ContactWay way = work_.thoroughly([&] { return steering_->push(begin, direction); });
+  const ContactWay way = work_.thoroughly([&] { return steering().push(begin, direction); });
   const std::optional<std::size_t> end = take(tree, from, way);
   leaving_ += work_.counts().edges_checked - before;
-  return end ? std::optional(Left{*end, !steering_->is_near(tree[*end])}) : std::nullopt;
+  return end ? std::optional(Left{*end, !steering().is_near(tree[*end])}) : std::nullopt;
 }
 
 std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& random) {
@@ -153,7 +157,7 @@ std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& ra
         random.below(2) == 0 ? marked.back() : marked[random.below(marked.size())];
     ++work_.counts().contacts.pushes;
     const Configuration begin = tree[from];
-    return take(tree, from, steering_->push(begin, steering_->direction(random)));
+    return take(tree, from, steering().push(begin, steering().direction(random)));
   });
 }
 
@@ -173,7 +177,7 @@ void ContactGrowth::find_passage(RandomNumbers& random) {
     open.head<3>() = range_ * place->open;
     for (const double sign : {1.0, -1.0}) {
       ++work_.counts().contacts.pushes;
-      take(tree, root, steering_->push(place->q, sign * open));
+      take(tree, root, steering().push(place->q, sign * open));
     }
   }
   passages_.add(std::move(tree));

@@ -78,6 +78,7 @@ class ContactGrowth {
 
  private:
   [[nodiscard]] bool is_due() const;
+  [[nodiscard]] ContactSteering& steering();
   std::optional<std::size_t> take(PlanTree& tree, std::size_t from, const ContactWay& way);
 
   void find_passage(RandomNumbers& random);
@@ -94,7 +95,7 @@ class ContactGrowth {
   PlanWork& work_;
   ContactUse use_;
   double range_;
-  std::optional<ContactSteering> steering_;
+  std::optional<ContactSteering> steering_;  // Made at the first use: easy questions have none.
   enum class Turn { edges, pushes, passages };
   Turn turn_ = Turn::edges;
   std::optional<GapSampler> gaps_;

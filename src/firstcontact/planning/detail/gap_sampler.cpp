@@ -213,12 +213,12 @@ std::optional<GapFrame> RayTarget::gap(double side, double most, RandomNumbers& 
   return frame;
 }
 
-GapSampler::GapSampler(const PlanScene& scene) : space_(scene.space) {
-  if (!space_.is_body()) {
-    return;
-  }
-  const RobotScene& all = scene.scene;
-  const std::size_t mover = all.first_member(scene.robots.front());
+GapSampler::GapSampler(const PlanScene& scene) : scene_(scene), space_(scene.space) {}
+
+void GapSampler::fill() {
+  is_filled_ = true;
+  const RobotScene& all = scene_.scene;
+  const std::size_t mover = all.first_member(scene_.robots.front());
   const Shape& shape = all.geometries(mover)[0].shape;
   most_ = 2.0 * (shape.hierarchy().radius + shape.radius());
   add_triangles(shape, {}, moved_);
@@ -233,6 +233,12 @@ GapSampler::GapSampler(const PlanScene& scene) : space_(scene.space) {
 }
 
 std::optional<GapSampler::Place> GapSampler::draw(RandomNumbers& random) {
+  if (!is_filled_) {
+    fill();
+  }
+  if (!may_draw()) {
+    return std::nullopt;
+  }
   for (int k = 0; parts_.size() < kParts && k < kDrawsOfParts; ++k) {
     if (const std::optional<GapFrame> part = moved_.gap(-1.0, most_, random)) {
       parts_.push_back(*part);

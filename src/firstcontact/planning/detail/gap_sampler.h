@@ -75,8 +75,10 @@ class GapSampler {
  public:
   explicit GapSampler(const PlanScene& scene);
 
-  /// Whether places can be drawn: there are a body and surfaces at rest.
-  [[nodiscard]] bool may_draw() const { return fixed_.size() > 0 && moved_.size() > 0; }
+  /// Whether places can be drawn: there are a body and, as far as is known, surfaces at rest.
+  [[nodiscard]] bool may_draw() const {
+    return space_.is_body() && (!is_filled_ || (fixed_.size() > 0 && moved_.size() > 0));
+  }
 
   /// A place and the direction along which the gap is open, in axes of the body [-].
   struct Place {
@@ -87,7 +89,11 @@ class GapSampler {
   [[nodiscard]] std::optional<Place> draw(RandomNumbers& random);
 
  private:
+  void fill();
+
+  const PlanScene& scene_;
   const ConfigurationSpace& space_;
+  bool is_filled_ = false;  // Whether the triangles are there: easy questions need none.
   RayTarget fixed_;
   RayTarget moved_;
   double most_ = 0.0;            // [m]  Greatest thickness of the body.
