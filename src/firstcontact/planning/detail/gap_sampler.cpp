@@ -233,7 +233,7 @@ void GapSampler::fill() {
 }
 
 std::optional<GapSampler::Place> GapSampler::draw(RandomNumbers& random) {
-  if (!is_filled_) {
+  if (may_draw() && !is_filled_) {
     fill();
   }
   if (!may_draw()) {
