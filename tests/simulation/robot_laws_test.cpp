@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/record/write_run.h>
+#include <firstcontact/simulation_model/detail/joint_law.h>
 
 #include "simulation/double_pendulum.h"
 #include "simulation/simulated_run.h"
@@ -322,32 +323,60 @@ TEST_F(RobotLaws, DampersDecayExactly) {
   }
 }
 
+/// A sled of 0.2 kg on a rail, whose motor pulls it to 0 with 100 N/m against a damper [N s/m].
+std::string damped_sled(double upper) {
+  return "<link name=\"base\"/>" + massive("sled", 0.2, "0 0 0", {0.01, 0.01, 0.01}) +
+         connected(
+             "rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
+             R"(<limit lower="-9" effort="0" velocity="0" upper=")" + number_text(upper) + "\"/>");
+}
+
+std::string motor_of_sled(double position, double damping) {
+  return R"("dynamics": {"base": "fixed", "motors": {"rail": {"position": )" +
+         number_text(position) + R"(, "stiffness": 100, "damping": )" + number_text(damping) +
+         "}}}";
+}
+
 // A strong damper, whose own decay is over within a step, lets a spring creep.
 TEST_F(RobotLaws, CreepAgainstStrongDampersToSecondOrder) {
-  constexpr double kStiffness = 100.0;
-  constexpr double kEnd = 0.5;  // [s]
+  constexpr double kEnd = 0.5;             // [s]
+  constexpr double kSquare = 100.0 / 0.2;  // [1/s^2]  Stiffness by mass.
   for (const double damping : {50.0, 200.0, 1000.0}) {
-    const std::string urdf = "<link name=\"base\"/>" +
-                             massive("sled", 0.2, "0 0 0", {0.01, 0.01, 0.01}) +
-                             connected("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
-                                       R"(<limit lower="-9" upper="9" effort="0" velocity="0"/>)");
     // Both rates of decay of a damped spring, from rest at 0.3 m.
     const double half = 0.5 * damping / 0.2;
-    const double root = std::sqrt(half * half - kStiffness / 0.2);
-    const double slow = kStiffness / 0.2 / (half + root);
-    const double fast = half + root;
+    const double fast = half + std::sqrt(half * half - kSquare);
+    const double slow = kSquare / fast;
     const double right =
         0.3 * (fast * std::exp(-slow * kEnd) - slow * std::exp(-fast * kEnd)) / (fast - slow);
     for (const double step : {0.02, 0.01, 0.005, 0.0025}) {
-      Simulator s = made(urdf,
-                         R"("state": {"rail": 0.3}, "dynamics": {"base": "fixed", "motors": {"rail":
-                             {"position": 0, "stiffness": 100, "damping": )" +
-                             number_text(damping) + "}}}",
-                         R"("gravity": [0, 0, 0], "step": )" + number_text(step));
+      Simulator s =
+          made(damped_sled(9.0), R"("state": {"rail": 0.3}, )" + motor_of_sled(0.0, damping),
+               R"("gravity": [0, 0, 0], "step": )" + number_text(step));
       const auto count = static_cast<std::size_t>(std::lround(kEnd / step));
-      EXPECT_NEAR(test::run(s, count).back().robots[0].positions[0], right, 1.0 * step * step)
+      EXPECT_NEAR(test::run(s, count).back().robots[0].positions[0], right, step * step)
           << damping << " " << step;
     }
+  }
+}
+
+// Creep and the decay of a damper end at a limit, not beyond it but for rounding.
+TEST_F(RobotLaws, CreepNoFartherThanTheLimit) {
+  for (const double damping : {20.0, 50.0, 1000.0}) {
+    Simulator s = made(damped_sled(0.01), R"("state": {"rail": 0}, )" + motor_of_sled(0.3, damping),
+                       R"("gravity": [0, 0, 0], "step": 0.01)");
+    double last = 0.0;
+    for (const RunStep& at : test::run(s, 100)) {
+      last = at.robots[0].positions[0];
+      ASSERT_LE(last, 0.01 + 1e-15) << damping << " " << at.index;
+    }
+    EXPECT_NEAR(last, 0.01, 1e-12) << damping;
+  }
+}
+
+// The bound that tells slow motions from decays: a decay loses at least 2 weight - 1 in a span.
+TEST(FittedWeights, TellWhatADecayLosesAtLeast) {
+  for (double z = 1e-6; z < 1e6; z *= 1.5) {
+    EXPECT_GE(-std::expm1(-z), (2.0 * detail::fitted_weight(z) - 1.0) * (1.0 - 1e-12)) << z;
   }
 }
 

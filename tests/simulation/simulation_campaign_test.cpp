@@ -379,22 +379,24 @@ struct Seeds {
   std::uint64_t count;
 };
 
-TEST(SimulationCampaign, EveryRunKeepsTheLawsAndIsProven) {
+/// Checks the scenes of seeds.
+///
+/// @param scene_of  makes a CampaignScene of a Draw
+template <class SceneOf>
+void check_all(const Seeds& seeds, const SceneOf& scene_of) {
   Campaign campaign;
-  const Seeds seeds(20);
   for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
-    campaign.check(seed, Draw(seed).scene());
+    campaign.check(seed, scene_of(Draw(seed)));
   }
   campaign.print(seeds.count);
 }
 
+TEST(SimulationCampaign, EveryRunKeepsTheLawsAndIsProven) {
+  check_all(Seeds(20), [](Draw draw) { return draw.scene(); });
+}
+
 TEST(SimulationCampaign, SoDoesEveryRunOfCurvedShapes) {
-  Campaign campaign;
-  const Seeds seeds(12);
-  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
-    campaign.check(seed, Draw(seed).curved_scene());
-  }
-  campaign.print(seeds.count);
+  check_all(Seeds(12), [](Draw draw) { return draw.curved_scene(); });
 }
 
 /// Where the robot of a scene is written; removed in the end.
@@ -413,13 +415,8 @@ class RobotFile {
 };
 
 TEST(SimulationCampaign, SoDoesEveryRunWithARobot) {
-  Campaign campaign;
-  const Seeds seeds(8);
   const RobotFile urdf;
-  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
-    campaign.check(seed, Draw(seed).scene_with_robot(urdf.path()));
-  }
-  campaign.print(seeds.count);
+  check_all(Seeds(8), [&](Draw draw) { return draw.scene_with_robot(urdf.path()); });
 }
 
 // This scene once exceeded the bound of the energy.

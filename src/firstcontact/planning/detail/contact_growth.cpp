@@ -55,8 +55,11 @@ void ContactGrowth::next(bool is_stuck, RandomNumbers& random) {
 }
 
 bool ContactGrowth::is_due() const {
-  if (use_ == ContactUse::none || is_stuck_) {
-    return use_ != ContactUse::none;
+  if (use_ == ContactUse::none) {
+    return false;
+  }
+  if (is_stuck_) {
+    return true;
   }
   const std::size_t others = work_.counts().edges_checked - spent_ - leaving_;
   double allowed = -kFewEdges;

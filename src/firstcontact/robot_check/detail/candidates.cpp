@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
-#include <memory_resource>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include <firstcontact/robot_check/detail/placed_geometry.h>
+#include <firstcontact/robot_check/detail/search_memory.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory_resource>
 #include <optional>
 #include <utility>
@@ -77,22 +76,6 @@ class PlacedGeometry {
   std::pmr::vector<GeometryPlace> places_;
   GridWindow window_ = {0, 0};  // Window of swept_.
   SweptGeometry swept_;
-};
-
-/// Memory of a search, which is asked for once for most edges of planners.
-class SearchMemory {
- public:
-  SearchMemory() = default;
-  SearchMemory(const SearchMemory&) = delete;
-  SearchMemory& operator=(const SearchMemory&) = delete;
-
-  [[nodiscard]] std::pmr::memory_resource& resource() { return memory_; }
-
- private:
-  static constexpr std::size_t kBytes = std::size_t{3} << 14;  // Two dozen geometries, a robot.
-
-  alignas(std::max_align_t) std::array<std::byte, kBytes> first_;
-  std::pmr::monotonic_buffer_resource memory_{first_.data(), kBytes};
 };
 
 }  // namespace firstcontact::detail
