@@ -231,7 +231,8 @@ class Search {
   /// Probes candidates of one instant, the deepest first, until the probe finds a contact.
   void probe(std::vector<GeometryCandidate>& suspects) {
     std::sort(suspects.begin(), suspects.end());
-    const auto hit = std::ranges::find_if(suspects, std::cref(*probe_));
+    const auto hit = std::ranges::find_if(
+        suspects, [this](const GeometryCandidate& candidate) { return (*probe_)(candidate); });
     if (hit != suspects.end()) {
       contact_ = *hit;
     }
