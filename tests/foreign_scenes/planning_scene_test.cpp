@@ -1,3 +1,5 @@
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -170,6 +172,20 @@ TEST(MalformedPlanningScene, HasNoKeysThatMessagesLack) {
                  "\"frame_id\"?");
 }
 
+TEST(PlanningScene, HasTheFrameOfItsRobotAsThePlanningFrame) {
+  const auto moved = [](const std::string& frame, const std::string& translation) {
+    return "fixed_frame_transforms: [{child_frame_id: " + frame + ", transform: {translation: [" +
+           translation + "]}}]\nworld: {}";
+  };
+  expect_message(moved("/ground", "0, 1, 0"),
+                 "s.yaml:1: fixed_frame_transforms[0]: expected the frame of the root link, "
+                 "\"/ground\", to be the planning frame, but it is moved");
+  EXPECT_FALSE(parse(moved("ground", "0, 0, 0")).moves_world);
+  EXPECT_FALSE(parse(moved("table", "0, 1, 0")).moves_world);
+  EXPECT_FALSE(parse(moved("world", "0, 0, 0")).moves_world);
+  EXPECT_TRUE(parse(moved("world", "0, 1, 0")).moves_world);
+}
+
 /// A robot whose base has this pose.
 std::string moved_base(const std::string& transform) {
   return "robot_state: {multi_dof_joint_state: {joint_names: [w], twist: [], wrench: [], "
@@ -190,8 +206,8 @@ TEST(PlanningScene, HasARobotWhoseBaseIsThePlanningFrame) {
   }
   expect_message(
       "robot_state: {multi_dof_joint_state: {joint_names: [], transforms: [{}]}}\nworld: {}",
-      "s.yaml:1: robot_state.multi_dof_joint_state.transforms: expected one joint, between the "
-      "world and the robot, with one transform");
+      "s.yaml:1: robot_state.multi_dof_joint_state.transforms: expected a transform for each of "
+      "the 0 names, got 1");
 }
 
 TEST(PlanningScene, HasWhatLinksHoldAndPadding) {
@@ -301,6 +317,82 @@ TEST(PlanningScene, HasTheStateOfTheRobot) {
   expect_message("robot_state: {joint_state: {name: [a, b], position: [1]}}\nworld: {}",
                  "s.yaml:1: robot_state.joint_state.position: expected a number for each of the 2 "
                  "names, got 1");
+}
+
+/// A carriage that drives in a plane, with a kite on a floating joint.
+RobotModel carriage() {
+  RobotDescription robot{.name = "carriage", .links = {{"ground"}, {"cart"}, {"kite"}}};
+  robot.joints.push_back(
+      {.name = "drive", .type = JointType::planar, .parent = "ground", .child = "cart"});
+  robot.joints.back().axis = Eigen::Vector3d::UnitZ();
+  robot.joints.push_back(
+      {.name = "line", .type = JointType::floating, .parent = "cart", .child = "kite"});
+  return RobotModel(robot);
+}
+
+std::string carriage_request(const std::string& names, const std::string& transforms) {
+  return "start_state: {multi_dof_joint_state: {joint_names: [" + names + "], transforms: [" +
+         transforms + R"(]}}
+group_name: all
+workspace_parameters: {min_corner: [-1, -2, -3], max_corner: [4, 5, 6]}
+goal_constraints:
+- joint_constraints: [{joint_name: drive/x, position: 1}, {joint_name: line/trans_z, position: 3}]
+)";
+}
+
+TEST(PlanningRequest, HasPosesOfPlanarAndFloatingJoints) {
+  const RobotModel robot = carriage();
+  const std::vector<RobotGroup> groups{{.name = "all", .links = {1, 2}, .joints = {0, 1}}};
+  const PlanningRequest request = parse_planning_request(
+      carriage_request("drive, world_joint, line",
+                       "{translation: [1, 2, 0], rotation: [0, 0, -0.6, -0.8]}, "
+                       "{translation: [7, 0, 0], rotation: [0, 0, 0, 1]}, "
+                       "{translation: [0, 0, 2], rotation: [0.6, 0, 0, 0.8]}"),
+      "r.yaml", robot, groups);
+  const double theta = request.start.at("drive/theta");
+  EXPECT_NEAR(theta, 2.0 * std::atan(0.75), 1e-15);
+  EXPECT_EQ(request.start, (JointPositions{{"drive/x", 1.0},
+                                           {"drive/y", 2.0},
+                                           {"drive/theta", theta},
+                                           {"line/trans_x", 0.0},
+                                           {"line/trans_y", 0.0},
+                                           {"line/trans_z", 2.0},
+                                           {"line/rot_w", 0.8},
+                                           {"line/rot_x", 0.6},
+                                           {"line/rot_y", 0.0},
+                                           {"line/rot_z", 0.0}}));
+  EXPECT_EQ(request.base.position, Eigen::Vector3d(7, 0, 0));
+  EXPECT_EQ(request.joints,
+            (std::vector<std::string>{"drive/x", "drive/y", "drive/theta", "line"}));
+  EXPECT_EQ(request.bounds,
+            (std::map<std::string, std::array<double, 2>>{{"drive/x", {-1.0, 4.0}},
+                                                          {"drive/y", {-2.0, 5.0}},
+                                                          {"line/trans_x", {-1.0, 4.0}},
+                                                          {"line/trans_y", {-2.0, 5.0}},
+                                                          {"line/trans_z", {-3.0, 6.0}}}));
+}
+
+TEST(PlanningRequest, RefusesPosesThatItsJointsCannotHave) {
+  const auto message = [](const std::string& names, const std::string& transforms) {
+    try {
+      (void)parse_planning_request(carriage_request(names, transforms), "r.yaml", carriage());
+    } catch (const ParseError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string at = "r.yaml:1: start_state.multi_dof_joint_state.";
+  EXPECT_EQ(message("drive", "{translation: [1, 2, 0.1]}"),
+            at + "transforms[0]: expected a pose in the plane x, y of planar joint \"drive\"");
+  EXPECT_EQ(message("drive", "{rotation: [0.6, 0, 0, 0.8]}"),
+            at + "transforms[0]: expected a pose in the plane x, y of planar joint \"drive\"");
+  EXPECT_EQ(message("drive, drive", "{}, {}"),
+            at + "joint_names[1]: expected each joint once, got \"drive\" again");
+  EXPECT_EQ(message("left, right", "{}, {}"),
+            at + "joint_names[1]: expected joints of the robot, and one between the world and the "
+                 "robot, got \"left\" and \"right\"");
+  EXPECT_EQ(message("drive, line", "{}"),
+            at + "transforms: expected a transform for each of the 2 names, got 1");
 }
 
 TEST(PlanningRequest, HasAGoalOfALink) {

@@ -23,6 +23,7 @@
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/robot_question.h>
 #include <firstcontact/scene_files/write_planned_path.h>
 #include <firstcontact/text/parse_error.h>
 
@@ -87,6 +88,45 @@ class DroneFile : public ::testing::Test {
 std::string drone_through_window(const std::string& more = "") {
   return std::string(R"("goal": {"base": {"position": [1, 0.1, 0]}, "elbow": 0.5}, "time": 60, )") +
          kDroneBounds + more;
+}
+
+/// The start is a pose of MoveIt's start state, the bounds are MoveIt's workspace.
+TEST_F(DroneFile, IsPlannedFromARequest) {
+  std::ofstream(folder_ / "window.json") << R"({"firstcontact": 1, )" << kDroneWindow << "}";
+  std::ofstream(folder_ / "drone.srdf")
+      << "<robot name='drone'><group name='all'><joint name='base'/><joint name='elbow'/></group>"
+         "<group_state name='away' group='all'><joint name='base' value='-1 0 0 0 0 0.6 0.8'/>"
+         "</group_state></robot>";
+  std::ofstream(folder_ / "request.yaml") << R"(
+workspace_parameters: {min_corner: [-1.5, -1, -1], max_corner: [1.5, 1, 1]}
+group_name: all
+start_state:
+  joint_state: {name: [elbow], position: [0.25]}
+  multi_dof_joint_state:
+    joint_names: [base]
+    transforms: [{translation: [-1, 0, 0], rotation: [0, 0, 0.6, 0.8]}]
+goal_constraints:
+- joint_constraints:
+  - {joint_name: base/trans_x, position: 1}
+  - {joint_name: elbow, position: 0.5}
+)";
+  RobotQuestion asked{.robot = {.urdf = folder_ / "drone.urdf"},
+                      .srdf = folder_ / "drone.srdf",
+                      .request = folder_ / "request.yaml",
+                      .environment = {folder_ / "window.json"},
+                      .plans = true};
+  const Scene scene = read_robot_question(asked);
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, *scene.plan, cache);
+  EXPECT_EQ(plan.start, (Configuration{0.25, -1, 0, 0, 0.8, 0, 0, 0.6}));
+  EXPECT_EQ(plan.goals.at(0), (Configuration{0.5, 1, 0, 0, 0.8, 0, 0, 0.6}));
+  EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
+            PlanVerdict::proven);
+
+  asked.request.clear();
+  asked.plans = false;
+  asked.start = {"away", "elbow=0.25"};
+  EXPECT_EQ(read_robot_question(asked).robots.at(0).state, scene.robots.at(0).state);
 }
 
 TEST_F(DroneFile, IsPlannedThroughAWindow) {

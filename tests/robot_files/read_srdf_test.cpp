@@ -114,6 +114,24 @@ TEST(ReadSrdf, NamesFileElementAndMend) {
             "f.srdf:2: <disable_collisions>: expected an attribute 'link2' that is not empty");
 }
 
+TEST(ReadSrdf, HasPosesOfFloatingJoints) {
+  RobotDescription description{.name = "drone", .links = {{"world"}, {"hull"}}};
+  description.joints.push_back(
+      {.name = "base", .type = JointType::floating, .parent = "world", .child = "hull"});
+  const RobotModel drone(description);
+  const auto state = [&](const std::string& value) {
+    return parse_srdf("<robot name='drone'><group name='g'><joint name='base'/></group>"
+                      "<group_state name='s' group='g'><joint name='base' value='" +
+                          value + "'/></group_state></robot>",
+                      "f.srdf", drone);
+  };
+  EXPECT_EQ(state("1 2 3 0.6 0 0 0.8").states.at(0).values.at(0).coordinates,
+            (std::vector<double>{1, 2, 3, 0.6, 0, 0, 0.8}));
+  for (const std::string wrong : {"1 2 3", "1 2 3 0 0 0 0", "1 2 3 0.6 0 0 0.9"}) {
+    EXPECT_THROW((void)state(wrong), ParseError) << wrong;
+  }
+}
+
 TEST(ReadSrdf, WarnsOfNamesThatTheRobotLacks) {
   const RobotSemantics semantics = parse(
       "<disable_collisions link1='a' link2='hand'/>"

@@ -140,6 +140,11 @@ TEST_F(QuestionRules, TakesTheBaseOfItsRequest) {
   // Objects of a planning scene may be placed by the robot's base.
   folder_.write("room.yaml", "world: {}\n");
   asked.environment = {folder_.path() / "room.yaml"};
+  EXPECT_EQ(said(asked), at("moved.yaml") +
+                             ": start_state.multi_dof_joint_state: expected a base at the planning "
+                             "frame beside planning scene " +
+                             at("room.yaml") + ", but it is moved; move the objects in its place");
+  asked.request.clear();
   EXPECT_EQ(
       said(asked),
       at("room.yaml") + ": expected a robot whose base is the planning frame, but it is moved");
@@ -162,6 +167,18 @@ TEST_F(QuestionRules, TakesAGoalOfALinkAsAPlanAlone) {
   ASSERT_EQ(scene.plan->link_goals.size(), 1u);
   EXPECT_EQ(scene.plan->link_goals[0].link, "tip");
   EXPECT_EQ(scene.plan->link_goals[0].X_WT.position.x(), 1.0);
+  // One name for two frames would mean another goal than the objects beside it.
+  folder_.write(
+      "room.yaml",
+      "fixed_frame_transforms: [{child_frame_id: world, transform: {translation: [0, 0.5, "
+      "0]}}]\nworld: {}\n");
+  asked.environment = {folder_.path() / "room.yaml"};
+  EXPECT_EQ(said(asked), at("room.yaml") +
+                             ": fixed_frame_transforms: expected \"world\" to be the planning "
+                             "frame beside a goal that is the pose of a link; call the frame "
+                             "otherwise");
+  asked.request = folder_.path() / "goal.yaml";
+  EXPECT_EQ(read_robot_question(asked).plan->goals.size(), 1u);
 }
 
 // Who plans has one way to ask, whether goals are of joints or of links, in files or in words.

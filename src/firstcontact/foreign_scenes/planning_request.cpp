@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <firstcontact/foreign_scenes/detail/pose_constraints.h>
 #include <firstcontact/foreign_scenes/detail/robot_state.h>
@@ -41,19 +44,32 @@ void refuse_attached(const JsonValue& state, const JsonReader& read) {
   }
 }
 
-/// Reads the pose of the joint between the world and the root link.
-detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
-                              const JsonReader& read) {
-  const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
-  if (!joint) {
-    return {};
+/// Reads the poses of joints: those of the robot, and of the one between the world and its root
+/// link, which is the base.
+///
+/// @returns  the names of joints whose quaternion is all zeros
+std::vector<std::string> read_posed_joints(const JsonValue& state, const RobotModel& robot,
+                                           const JsonReader& read, PlanningRequest& request) {
+  std::vector<std::string> zero;
+  std::optional<std::string> world;
+  for (const detail::PosedJoint& posed : detail::read_posed_joints(state, read)) {
+    const std::string name = detail::name_of(posed.name, "the name of a joint", read);
+    const std::optional<std::size_t> joint = robot.find_joint(name);
+    if (joint) {
+      detail::add_pose(posed, robot.joints()[*joint], read, request.start);
+    } else if (world) {
+      read.fail(posed.name,
+                "expected joints of the robot, and one between the world and the robot, got " +
+                    in_quotes(*world) + " and " + in_quotes(name));
+    } else {
+      world = name;
+      request.base = posed.pose.pose;
+    }
+    if (posed.pose.has_zero_quaternion) {
+      zero.push_back(joint ? "joint " + name : "the robot's base");
+    }
   }
-  const std::string name = detail::name_of(joint->name, "the name of a joint", read);
-  if (robot.find_joint(name)) {
-    read.fail(joint->name, "expected the joint between the world and the robot, got its joint " +
-                               in_quotes(name));
-  }
-  return joint->base;
+  return zero;
 }
 
 /// Refuses unknown keys of a request: they would be left out without notice.
@@ -189,9 +205,12 @@ class MovedGroup {
       joint = robot_.find_joint(mimic->joint).value();
       is_moved = is_moved || has(joint);
     }
-    const std::size_t count = is_moved ? coordinate_count(robot_.joints()[joint].type) : 0;
+    const JointType type = robot_.joints()[joint].type;
+    const bool is_floating = type == JointType::floating;  // It is planned by its own name.
+    const std::size_t count = !is_moved ? 0 : is_floating ? 1 : coordinate_count(type);
     for (std::size_t index = 0; index < count; ++index) {
-      const std::string name = coordinate_name(robot_, {joint, index});
+      const std::string name =
+          is_floating ? robot_.joints()[joint].name : coordinate_name(robot_, {joint, index});
       if (std::ranges::find(names, name) == names.end()) {
         names.push_back(name);
       }
@@ -264,6 +283,45 @@ RequestGoal read_goal(const JsonValue& wanted, const RobotModel& robot, const Mo
   return goal;
 }
 
+/// The coordinates that a request plans.
+std::set<std::string> planned_coordinates(const PlanningRequest& request) {
+  std::set<std::string> names(request.joints.begin(), request.joints.end());
+  for (const RequestGoal& goal : request.goals) {
+    for (const auto& [name, position] : goal.positions) {
+      names.insert(name);
+    }
+  }
+  return names;
+}
+
+/// Reads the box of the workspace as bounds of planar and floating joints, as MoveIt does.
+///
+/// A box without volume is one that nothing has set.
+void read_workspace(const JsonValue& workspace, const RobotModel& robot, const JsonReader& read,
+                    PlanningRequest& request) {
+  (void)read.object(workspace, {{"header", "min_corner", "max_corner"}});
+  const JsonValue* low = find_filled(workspace, "min_corner");
+  const JsonValue* high = find_filled(workspace, "max_corner");
+  if (low == nullptr || high == nullptr) {
+    return;
+  }
+  const Eigen::Vector3d from = detail::read_point(*low, read);
+  const Eigen::Vector3d to = detail::read_point(*high, read);
+  if (!(from.array() < to.array()).all()) {
+    return;
+  }
+  for (const std::string& name : planned_coordinates(request)) {
+    const auto found = known_coordinate(robot, name);
+    const std::optional<std::size_t> joint = found ? found->joint : robot.find_joint(name);
+    const JointType type = joint ? robot.joints()[*joint].type : JointType::fixed;
+    const Eigen::Index axes = type == JointType::floating ? 3 : type == JointType::planar ? 2 : 0;
+    for (Eigen::Index axis = 0; axis < axes; ++axis) {
+      request.bounds[coordinate_name(robot, {*joint, static_cast<std::size_t>(axis)})] = {
+          from[axis], to[axis]};
+    }
+  }
+}
+
 }  // namespace
 
 PlanningRequest parse_planning_request(std::string_view text, const std::filesystem::path& source,
@@ -296,15 +354,16 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
       result.start = std::move(start.positions);
       fixed = std::move(start.fixed);
     }
-    const detail::MessagePose base = read_base(*state, robot, read);
-    result.base = base.pose;
-    if (base.has_zero_quaternion) {
-      result.warnings.push_back(detail::zero_quaternion_warning(name, {"the robot's base"}));
+    if (const auto zero = read_posed_joints(*state, robot, read, result); !zero.empty()) {
+      result.warnings.push_back(detail::zero_quaternion_warning(name, zero));
     }
   }
   refuse_other_constraints(request, read);
   for (const JsonValue& wanted : goals_of(request, read)) {
     result.goals.push_back(read_goal(wanted, robot, group, read, result, fixed));
+  }
+  if (const JsonValue* workspace = find_filled(request, "workspace_parameters")) {
+    read_workspace(*workspace, robot, read, result);
   }
   if (!fixed.empty()) {
     result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));

@@ -89,12 +89,12 @@ void read_world(const JsonValue& world, detail::PlanningObjects& objects, Planni
 /// Refuses a base that is moved. The planning frame is that of the root link here: objects may be
 /// placed by either.
 void refuse_moved_base(const JsonValue& state, const JsonReader& read) {
-  const std::optional<detail::WorldJoint> joint = detail::read_world_joint(state, read);
-  if (joint &&
-      !(joint->base.pose.position.isZero(0.0) && joint->base.pose.rotation.vec().isZero(0.0))) {
-    read.fail(joint->transform,
-              "expected a robot whose base is the planning frame, but it is moved; move the "
-              "objects in its place");
+  for (const detail::PosedJoint& joint : detail::read_posed_joints(state, read)) {
+    if (!detail::is_identity(joint.pose.pose)) {
+      read.fail(joint.transform,
+                "expected a robot whose base is the planning frame, but it is moved; move the "
+                "objects in its place");
+    }
   }
 }
 
@@ -125,6 +125,7 @@ PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::pa
   detail::PlanningObjects objects(source, frame, read);
   if (const JsonValue* transforms = find_filled(scene, "fixed_frame_transforms")) {
     objects.add_frames(*transforms);
+    result.moves_world = objects.moves_world();
   }
   read_links(scene, result, read);
   const JsonValue* world = is_world ? &scene : find_filled(scene, "world");

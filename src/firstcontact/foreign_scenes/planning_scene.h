@@ -49,6 +49,7 @@ struct PlanningScene {
   std::vector<AttachedObject> attached;
   std::map<std::string, double> padding;  ///< [m]  Padding of each link; > 0.
   JointPositions state = {};  ///< Positions of robot_state, by names that the robot may not have.
+  bool moves_world = false;   ///< Whether the frame "world" is not the planning frame.
   std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
 
@@ -65,6 +66,9 @@ struct PlanningRequest {
   /// The coordinates of `group_name`; for links those that move them. Empty where there is no
   /// group.
   std::vector<std::string> joints = {};
+  /// [m]  Bounds of the positions that planar and floating joints of the goals or of the group
+  /// have, by coordinate: `workspace_parameters`.
+  std::map<std::string, std::array<double, 2>> bounds = {};
   double velocity_scaling = 1.0;           ///< [-]  Factor of the velocity limits; in (0, 1].
   double acceleration_scaling = 1.0;       ///< [-]  Factor of the acceleration limits; in (0, 1].
   double cartesian_speed = 0.0;            ///< [m/s]  Most of a link's speed; 0: unlimited.

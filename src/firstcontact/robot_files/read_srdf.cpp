@@ -1,10 +1,12 @@
 #include <firstcontact/robot_files/read_srdf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include <firstcontact/robot_files/detail/srdf_names.h>
@@ -322,16 +324,30 @@ class SrdfReader {
             "the joint is fixed: its position in a state is left out");
       return;
     }
-    const std::size_t count = coordinate_count(known.type);
+    const std::size_t count = known.type == JointType::floating ? 7 : coordinate_count(known.type);
     if (coordinates.size() != count) {
       xml_.fail(element, "expected as many numbers in 'value' as the joint has coordinates, " +
                              std::to_string(count) + ", got " + std::to_string(coordinates.size()));
+    }
+    if (known.type == JointType::floating) {
+      require_unit_quaternion(element, coordinates);
     }
     const auto given = std::ranges::find(state.values, *found, &GroupState::JointValue::joint);
     if (given == state.values.end()) {
       state.values.push_back({*found, coordinates});
     } else if (given->coordinates != coordinates) {
       xml_.fail(element, "the state has another position of this joint; remove one of the two");
+    }
+  }
+
+  void require_unit_quaternion(const XmlElement& element, const std::vector<double>& pose) const {
+    constexpr double kSlack = 1e-6;
+    const double length = std::hypot(std::hypot(pose[3], pose[4]), std::hypot(pose[5], pose[6]));
+    if (!(std::abs(length - 1.0) <= kSlack)) {
+      xml_.fail(element,
+                "expected x, y, z and a quaternion x, y, z, w of length 1 in 'value', got one of "
+                "length " +
+                    std::to_string(length));
     }
   }
 

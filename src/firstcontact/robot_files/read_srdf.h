@@ -27,7 +27,9 @@ struct RobotGroup {
 struct GroupState {
   struct JointValue {
     std::size_t joint = 0;
-    std::vector<double> coordinates;  ///< [rad or m]  As many numbers as the joint has coordinates.
+    /// [rad or m]  As many numbers as the joint has coordinates. Of a floating joint seven, in
+    /// MoveIt's order: its position, then the quaternion x, y, z, w.
+    std::vector<double> coordinates;
   };
   std::string name;
   std::string group;

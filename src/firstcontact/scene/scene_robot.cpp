@@ -1,5 +1,7 @@
 #include <firstcontact/scene/scene_robot.h>
 
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string_view>
 
@@ -29,6 +31,15 @@ std::string known_states(const RobotSemantics& semantics) {
   return detail::listed({names.begin(), names.end()});
 }
 
+/// Adds the pose of a floating joint. An SRDF has its quaternion as MoveIt does: x, y, z, w.
+void add_pose(const RobotModel& model, const GroupState::JointValue& value,
+              JointPositions& positions) {
+  constexpr std::array<std::size_t, 7> kPlaces = {0, 1, 2, 6, 3, 4, 5};
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+    positions[coordinate_name(model, {value.joint, k})] = value.coordinates.at(kPlaces.at(k));
+  }
+}
+
 }  // namespace
 
 RobotModel read_robot_model(const RobotFile& file, const ReadingOptions& reading) {
@@ -53,10 +64,14 @@ JointPositions group_state(const RobotModel& model, const RobotSemantics& semant
     if (type == JointType::fixed) {
       continue;  // The SRDF's warnings name it.
     }
+    if (type == JointType::floating) {
+      add_pose(model, value, positions);
+      continue;
+    }
     if (coordinate_count(type) == 0) {
       throw std::invalid_argument("state " + detail::in_quotes(name) + ": joint " +
                                   detail::in_quotes(model.joints()[value.joint].name) + " is " +
-                                  to_string(type) + "; move the robot's base instead");
+                                  to_string(type) + ", and has none");
     }
     for (std::size_t k = 0; k < value.coordinates.size(); ++k) {
       positions[coordinate_name(model, {value.joint, k})] = value.coordinates[k];

@@ -22,6 +22,7 @@
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/text_tree.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
 #include <firstcontact/trajectory_files/read_trajectory.h>
 
 namespace firstcontact {
@@ -171,7 +172,7 @@ class SceneBuilder {
 
   /// The question for a path to any goal of a request.
   static PlanQuestion question_of(const PlanningRequest& request) {
-    PlanQuestion plan{.robots = {0}, .joints = request.joints};
+    PlanQuestion plan{.robots = {0}, .joints = request.joints, .bounds = request.bounds};
     for (const RequestGoal& goal : request.goals) {
       if (goal.link) {
         plan.link_goals.push_back(*goal.link);
@@ -229,12 +230,19 @@ class SceneBuilder {
   }
 
   /// Requires a base at the origin, as objects may be placed by the frame of the root link.
-  static void require_base_at_origin(const SceneRobot& robot, const std::filesystem::path& file) {
+  void require_base_at_origin(const SceneRobot& robot, const std::filesystem::path& file) const {
     const Pose& base = std::get<FixedMotion>(robot.base).pose;
-    if (!base.position.isZero(0.0) || !base.rotation.vec().isZero(0.0)) {
-      throw ParseError(file.string(),
-                       "expected a robot whose base is the planning frame, but it is moved");
+    if (detail::is_identity(base)) {
+      return;
     }
+    if (!question_.request.empty()) {
+      throw ParseError(question_.request.string(),
+                       "start_state.multi_dof_joint_state: expected a base at the planning frame "
+                       "beside planning scene " +
+                           file.string() + ", but it is moved; move the objects in its place");
+    }
+    throw ParseError(file.string(),
+                     "expected a robot whose base is the planning frame, but it is moved");
   }
 
   static bool has_key(const detail::JsonValue& value, const char* key) {
@@ -300,6 +308,12 @@ class SceneBuilder {
 
   void add_planning_scene(PlanningScene around, const std::filesystem::path& file,
                           SceneRobot& robot) {
+    if (around.moves_world && scene_.plan && !scene_.plan->link_goals.empty()) {
+      throw ParseError(
+          file.string(),
+          "fixed_frame_transforms: expected \"world\" to be the planning frame beside a "
+          "goal that is the pose of a link; call the frame otherwise");
+    }
     scene_.file_reports.push_back(detail::surroundings_report(
         file, "planning scene", around.bodies.size() + around.attached.size()));
     for (std::size_t k = 0; k < around.bodies.size(); ++k) {

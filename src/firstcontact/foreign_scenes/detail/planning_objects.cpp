@@ -31,7 +31,9 @@ const JsonValue* frame_name(const JsonValue& message, const JsonReader& read) {
 
 PlanningObjects::PlanningObjects(const std::filesystem::path& source, std::string_view frame,
                                  const JsonReader& read)
-    : folders_{.scene = source.parent_path(), .package_roots = {}}, read_(read) {
+    : folders_{.scene = source.parent_path(), .package_roots = {}},
+      read_(read),
+      planning_frame_(frame) {
   for (const std::string_view name : {std::string_view(), std::string_view("world"), frame}) {
     frames_.emplace(name, Pose{});
   }
@@ -42,10 +44,16 @@ void PlanningObjects::add_frames(const JsonValue& transforms) {
     (void)read_.object(element, {{"header", "child_frame_id", "transform"}});
     const std::string name =
         name_of(read_.member(element, "child_frame_id"), "the name of a frame", read_);
-    const Pose pose = pose_of(read_.member(element, "transform"), name);
-    frames_.insert_or_assign(without_slash(name), compose(frame_of(element), pose));
+    const Pose pose = compose(frame_of(element), pose_of(read_.member(element, "transform"), name));
+    if (without_slash(name) == planning_frame_ && !is_identity(pose)) {
+      read_.fail(element, "expected the frame of the root link, " + in_quotes(name) +
+                              ", to be the planning frame, but it is moved");
+    }
+    frames_.insert_or_assign(without_slash(name), pose);
   }
 }
+
+bool PlanningObjects::moves_world() const { return !is_identity(frames_.find("world")->second); }
 
 void PlanningObjects::add_object(const JsonValue& value, PlanningScene& scene) {
   const std::string id = new_id(value);

@@ -32,6 +32,8 @@ class PlanningObjects {
 
   /// Reads fixed_frame_transforms: frames that objects may be in.
   void add_frames(const JsonValue& transforms);
+  /// Whether the frame "world" is not the planning frame.
+  [[nodiscard]] bool moves_world() const;
 
   /// Adds the bodies of a moveit_msgs/CollisionObject.
   void add_object(const JsonValue& value, PlanningScene& scene);
@@ -53,6 +55,7 @@ class PlanningObjects {
 
   SceneFolders folders_;
   const JsonReader& read_;
+  std::string planning_frame_;
   std::map<std::string, Pose, std::less<>> frames_;
   std::set<std::string> ids_;
   std::vector<std::string> zeros_;

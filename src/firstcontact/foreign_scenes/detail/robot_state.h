@@ -3,25 +3,31 @@
 
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/trajectory_files/detail/ros_message.h>
 
 namespace firstcontact::detail {
 
-/// The joint between the world and the root link of a robot.
-struct WorldJoint {
+/// A joint whose position is a pose: one of the robot, or that between the world and its root link.
+struct PosedJoint {
   const JsonValue& name;
   const JsonValue& transform;
-  MessagePose base;  ///< Pose of the root link in the world.
+  MessagePose pose;  ///< Pose of the child in the joint's frame.
 };
 
 /// Refuses unknown keys of a state.
 void require_state_keys(const JsonValue& state, const JsonReader& read);
 
-/// Reads multi_dof_joint_state, which may have at most one joint here.
-[[nodiscard]] std::optional<WorldJoint> read_world_joint(const JsonValue& state,
-                                                         const JsonReader& read);
+/// Reads multi_dof_joint_state: joints and poses, as many of both.
+[[nodiscard]] std::vector<PosedJoint> read_posed_joints(const JsonValue& state,
+                                                        const JsonReader& read);
+
+/// Adds the coordinates of a planar or floating joint of the robot at a pose.
+///
+/// MoveIt's planar joints move in the plane x, y: one with another axis is refused here.
+void add_pose(const PosedJoint& posed, const Joint& joint, const JsonReader& read,
+              JointPositions& positions);
 
 }  // namespace firstcontact::detail

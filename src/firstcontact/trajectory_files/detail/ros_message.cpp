@@ -57,10 +57,6 @@ std::optional<Eigen::Quaterniond> read_quaternion(const JsonValue& value, const 
   return rotation;
 }
 
-bool is_identity(const Pose& pose) {
-  return pose.position.isZero(0.0) && pose.rotation.w() > 0.0 && pose.rotation.vec().isZero(0.0);
-}
-
 }  // namespace
 
 const JsonValue& unwrap_message(const JsonValue& root, const std::vector<std::string_view>& keys,
@@ -117,6 +113,10 @@ std::string zero_quaternion_warning(const std::string& source, const std::vector
   return source + ": " +
          (of.size() == 1 ? "a quaternion of zeros is" : "quaternions of zeros are") +
          " taken as the identity, as MoveIt does: " + some_of(of);
+}
+
+bool is_identity(const Pose& pose) {
+  return pose.position.isZero(0.0) && pose.rotation.vec().isZero(0.0);
 }
 
 Pose compose(const Pose& X_AB, const Pose& X_BC) {

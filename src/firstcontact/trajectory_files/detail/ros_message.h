@@ -41,6 +41,9 @@ struct MessagePose {
 /// A Pose has `position` and `orientation` (x, y, z, w), a Transform `translation` and `rotation`.
 [[nodiscard]] MessagePose read_message_pose(const JsonValue& value, const JsonReader& read);
 
+/// Whether a pose moves nothing, exactly.
+[[nodiscard]] bool is_identity(const Pose& pose);
+
 /// Composes X_AC = X_AB X_BC in double precision; exact where either is the identity.
 [[nodiscard]] Pose compose(const Pose& X_AB, const Pose& X_BC);
 
