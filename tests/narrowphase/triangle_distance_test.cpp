@@ -308,6 +308,40 @@ TEST_P(FeaturePairsWithinOn, AskedFeatureByFeatureHoldsTheSame) {
   EXPECT_EQ(feature_pairs_within(A, B, 2.0, 0, 0).count, 0u);
 }
 
+/// The three corners on one line, whichever of them is repeated or between the others.
+std::vector<Triangle> needles(const Vector3d& a, const Vector3d& b) {
+  const Vector3d between = 0.75 * a + 0.25 * b;
+  return {{a, a, b}, {a, b, b}, {a, b, a}, {between, a, b}, {a, between, b}, {a, b, between}};
+}
+
+// Of two long edges side by side both ends are near, whichever end a tilt brings nearest.
+TEST_P(FeaturePairsWithinOn, HoldsBothEndsOfNeedles) {
+  const Vector3d x = Vector3d::UnitX();
+  const Triangle face{Vector3d(-3, 1, 0), Vector3d(3, 1, 0), Vector3d(0, 4, 0)};
+  std::vector<Triangle> others = needles(-3.0 * x, 3.0 * x);
+  others.push_back(moved(face, Vector3d(0, -1, 0)));  // Beside its first edge.
+  for (const double tilt : {-1e-6, -1e-15, 0.0, 1e-15, 1e-6}) {
+    const std::array ends{Vector3d(-1, 0, 1.0 - tilt), Vector3d(1, 0, 1.0 + tilt)};
+    for (const Triangle& S : needles(ends[0], ends[1])) {
+      for (const Triangle& T : others) {
+        const FeaturePairs of_A = feature_pairs_within(S, T, 1.01);
+        const FeaturePairs of_B = feature_pairs_within(T, S, 1.01);
+        for (const Vector3d& end : ends) {
+          const auto is_end_of = [&](const Vector3d& p, const TriangleFeature& feature) {
+            return p == end && feature.type == Type::vertex;
+          };
+          EXPECT_TRUE(std::any_of(of_A.pairs.begin(), of_A.pairs.begin() + of_A.count,
+                                  [&](const auto& c) { return is_end_of(c.p_A, c.feature_A); }))
+              << tilt << " " << end.x();
+          EXPECT_TRUE(std::any_of(of_B.pairs.begin(), of_B.pairs.begin() + of_B.count,
+                                  [&](const auto& c) { return is_end_of(c.p_B, c.feature_B); }))
+              << tilt << " " << end.x();
+        }
+      }
+    }
+  }
+}
+
 // Two triangles with a common corner: nine pairs of edges and corners meet there, at distance 0.
 TEST_P(FeaturePairsWithinOn, HoldsEachPairOfFeaturesOnce) {
   const Triangle A{Vector3d(0.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/query/close_features.h>
 
 namespace firstcontact {
@@ -92,6 +93,26 @@ TEST(CloseFeatures, OfFewTrianglesAreThoseOfMany) {
     found += few.size();
   }
   EXPECT_GT(found, 2000u);
+}
+
+// A capsule's core is a triangle with one corner twice. Both of its ends are near a parallel one.
+TEST(CloseFeatures, AreBothEndsOfACapsuleBesideAnother) {
+  const Shape A = make_capsule(0.8, 2.0);
+  const Shape B = make_capsule(0.1, 0.2);
+  Workspace workspace;
+  for (const double tilt : {-1e-6, -1e-9, -1e-15, 0.0, 1e-15, 1e-9, 1e-6}) {
+    const Pose X_WB{{0.9 + 1e-4, 0.0, 0.0},
+                    Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3d::UnitY()))};
+    std::vector<Contact> contacts;
+    close_features(PlacedShape(A, Pose{}), PlacedShape(B, X_WB), 1e-3, workspace, contacts);
+    for (const std::uint32_t end : {0u, 1u}) {
+      EXPECT_TRUE(std::ranges::any_of(contacts,
+                                      [&](const Contact& c) {
+                                        return c.feature_B == Feature{FeatureType::vertex, end, 0};
+                                      }))
+          << tilt << " " << end;
+    }
+  }
 }
 
 }  // namespace

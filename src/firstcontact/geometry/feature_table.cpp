@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/needle.h>
 #include <firstcontact/geometry/shape.h>
 
 namespace firstcontact {
@@ -70,6 +71,9 @@ FeatureTable feature_table(const Shape& shape) {
                                small(number)});
       }
     }
+    table.has_needles = table.has_needles || is_needle(hierarchy.vertex(corners[0], 0.0),
+                                                       hierarchy.vertex(corners[1], 0.0),
+                                                       hierarchy.vertex(corners[2], 0.0));
     table.faces.push_back({{small(corners[0]), small(corners[1]), small(corners[2])},
                            small(table.first_face + hierarchy.triangle_index[a])});
   }

@@ -58,6 +58,7 @@ struct FeatureTable {
   std::vector<std::uint32_t> index;
   std::size_t first_edge = 0;  ///< Number of the first edge.
   std::size_t first_face = 0;  ///< Number of the first face.
+  bool has_needles = false;    ///< Whether corners of some triangle are on one line.
 };
 
 /// Makes the feature table of a shape.

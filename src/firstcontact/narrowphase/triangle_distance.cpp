@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <firstcontact/geometry/needle.h>
 #include <firstcontact/narrowphase/closest_features.h>
 #include <firstcontact/narrowphase/detail/elementary_pairs.h>
 
@@ -54,6 +55,34 @@ bool has_edge(unsigned features, int i) { return (features & 8u << i) != 0; }
 constexpr std::size_t kFeatures = 7;
 std::size_t number_of(const TriangleFeature& feature) {
   return 3 * static_cast<std::size_t>(feature.type) + static_cast<std::size_t>(feature.index);
+}
+
+bool is_needle(const Triangle& T) { return firstcontact::is_needle(T[0], T[1], T[2]); }
+
+/// The closest features of corner k of S and the edge of T from corner j.
+///
+/// @param swapped  S belongs to B
+ClosestFeatures corner_beside_edge(const Triangle& S, int k, const Triangle& T, int j,
+                                   bool swapped) {
+  const Vector3d& from = T[j];
+  const Vector3d& to = T[(j + 1) % 3];
+  const Vector3d edge = to - from;
+  const double square = edge.squaredNorm();
+  const double s = square > 0.0 ? std::clamp(edge.dot(S[k] - from) / square, 0.0, 1.0) : 0.0;
+  const Vector3d p = point_on_edge(from, to, s);
+  return exchanged_if(
+      swapped, {(p - S[k]).norm(), S[k], p, {TriangleFeature::Type::vertex, k}, edge_or_end(j, s)});
+}
+
+/// The corner at which the longest edge begins.
+int begin_of_longest(const Triangle& T) {
+  int longest = 0;
+  for (int k = 1; k < 3; ++k) {
+    if ((T[(k + 1) % 3] - T[k]).squaredNorm() > (T[(longest + 1) % 3] - T[longest]).squaredNorm()) {
+      longest = k;
+    }
+  }
+  return longest;
 }
 
 }  // namespace
@@ -120,6 +149,23 @@ FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double b
   };
   use_corners_and_edges(A, features_A, B, pairs.corners[0], false);
   use_corners_and_edges(B, features_B, A, pairs.corners[1], true);
+  const auto use_ends = [&](const Triangle& S, unsigned of_S, const Triangle& T, unsigned of_T,
+                            bool swapped) {
+    const int begin = begin_of_longest(S);
+    for (const int k : {begin, (begin + 1) % 3}) {
+      for (int j = 0; j < 3; ++j) {
+        if (has_corner(of_S, k) && has_edge(of_T, j)) {
+          use(corner_beside_edge(S, k, T, j, swapped));
+        }
+      }
+    }
+  };
+  if (is_needle(A)) {
+    use_ends(A, features_A, B, features_B, false);
+  }
+  if (is_needle(B)) {
+    use_ends(B, features_B, A, features_A, true);
+  }
   return within;
 }
 

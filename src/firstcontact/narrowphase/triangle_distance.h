@@ -45,15 +45,18 @@ struct ClosestFeatures {
 /// 1e70. Beyond, products overflow, and `distance` may be too large.
 FIRSTCONTACT_API ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B);
 
-/// Up to 21 feature pairs: nine of edges, six of a corner and a face, six piercings.
+/// Up to 33 feature pairs: nine of edges, six of a corner and a face, six piercings, twelve of the
+/// ends of needles.
 struct FeaturePairs {
-  std::array<ClosestFeatures, 21> pairs;
+  std::array<ClosestFeatures, 33> pairs;
   std::size_t count = 0;
 };
 
 /// Finds all elementary pairs within `band` [m]; for the same two features the nearest pair.
 ///
-/// Each has the features in whose interiors its closest points lie.
+/// Each has the features in whose interiors its closest points lie. The far end of an edge is there
+/// through the next edge, which leads away from it. A triangle whose corners are on one line has no
+/// such edge: both of its ends are tested against the edges of the other.
 ///
 /// @param features_A,features_B  bits of the corners (0 to 2) and edges (3 to 5) that may be part
 ///                               of a pair; faces always may

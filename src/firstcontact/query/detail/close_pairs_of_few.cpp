@@ -204,9 +204,11 @@ class OverFaces {
 
 }  // namespace
 
-bool are_few(const MovingPair& pair) {
+bool are_few(const ContactFrame& frame) {
+  const MovingPair& pair = frame.pair;
   return std::max(pair.A().triangles.size(), pair.B().triangles.size()) <=
-         FeatureTable::kMostTriangles;
+             FeatureTable::kMostTriangles &&
+         !frame.A.feature_table().has_needles && !frame.B.feature_table().has_needles;
 }
 
 // Derivation, u = 2^-53: R, as it is stored, is orthogonal up to 44 u and the rotation's error. So
@@ -217,7 +219,7 @@ bool are_few(const MovingPair& pair) {
 void find_close_of_few(const ContactFrame& frame, const RelativeState& state, double band,
                        WorkspaceData& workspace) {
   const MovingPair& pair = frame.pair;
-  assert(are_few(pair));
+  assert(are_few(frame));
   const double apart = band + 2.0 * pair.gap_error(state);
   // Places corners as MovingPair::place() does, to the last bit.
   const auto place_A = [&](const Vector3d& own) -> Vector3d { return state.R_WA * own; };

@@ -8,8 +8,8 @@
 
 namespace firstcontact::detail {
 
-/// Whether both meshes are small enough.
-[[nodiscard]] bool are_few(const MovingPair& pair);
+/// Whether both meshes are small enough, and all their triangles have an area.
+[[nodiscard]] bool are_few(const ContactFrame& frame);
 
 /// Lists every pair of features within `band` [m] (radii included) in workspace.close_pairs.
 ///

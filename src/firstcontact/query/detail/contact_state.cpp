@@ -191,7 +191,7 @@ ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_
   if (frame.pair.is_convex()) {
     find_close_to_convex(frame, state, band, workspace);
     sort_once(workspace);
-  } else if (are_few(frame.pair)) {
+  } else if (are_few(frame)) {
     find_close_of_few(frame, state, band, workspace);
   } else {
     of_more = find_close(frame, state, band, most, workspace);
