@@ -563,6 +563,18 @@ $""")
                             "run.jsonl: the run is not one of s.json as it is now; simulate again")
         self.assert_refused_with(self.run_tool("verify", "run.jsonl", "--scene", "gone.json"), "gone.json: ")
 
+    def test_refuses_a_run_whose_scene_was_edited(self):
+        scene = {**self.SCENE, "simulation": {"duration": 0.02}}
+        self.assertEqual(self.run_tool("simulate", self.file("s.json", json.dumps(scene)), "-o", "run.jsonl").returncode, 0)
+        header, steps = (self.folder / "run.jsonl").read_text().split("\n", 1)
+        edits = {"pairs": {"ignore": [["ball", "floor"]]}, "bodies": json.loads(header)["scene"]["bodies"][:1]}
+        for key, value in edits.items():
+            edited = json.loads(header)
+            edited["scene"][key] = value
+            self.file("run.jsonl", json.dumps(edited) + "\n" + steps)
+            for more in ([], ["--scene", "s.json"]):
+                self.assert_refused_with(self.run_tool("verify", "run.jsonl", *more), "run.jsonl:1: resolved_digest: ")
+
     def test_refuses_to_compare_a_run_of_no_file(self):
         self.file("s.json", json.dumps(self.SCENE))
         self.assert_refused(self.verify("--scene", "s.json"), "run.jsonl: header.scene_digest: the run states none, as "

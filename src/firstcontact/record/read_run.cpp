@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +16,9 @@
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
@@ -174,6 +178,20 @@ class Line {
 
 constexpr std::size_t kAnyCount = std::numeric_limits<std::size_t>::max();
 
+/// Refuses a header whose scene was edited. Those of older versions have no digest of it.
+void require_own_scene(const std::string& text, const std::string& path, const Line& line) {
+  const auto digest = line.root().find("resolved_digest");
+  if (digest == line.root().end()) {
+    return;
+  }
+  const detail::JsonValue header = detail::parse_json(text, path, 1);
+  const detail::JsonValue* scene =
+      detail::find(std::get<detail::JsonObject>(header.value), "scene");
+  if (line.string(*digest) != detail::sha256(detail::write_json(*scene))) {
+    line.fail(*digest, "the digest of \"scene\", which was edited; make the run again");
+  }
+}
+
 RunHeader read_header(const std::string& text, const std::string& path,
                       const ReadingOptions& options) {
   const Line line(text, path, 1);
@@ -185,7 +203,8 @@ RunHeader read_header(const std::string& text, const std::string& path,
   line.require_keys(root,
                     {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
                      "masses", "centres_of_mass"},
-                    {"kind"});
+                    {"kind", "resolved_digest"});
+  require_own_scene(text, path, line);
   RunHeader header;
   if (const auto kind = root.find("kind"); kind != root.end()) {
     if (*kind != "haptics") {

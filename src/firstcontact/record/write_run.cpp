@@ -19,6 +19,9 @@
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/scene_files/write_scene.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
@@ -250,15 +253,17 @@ Json to_json(const std::vector<T>& elements) {
 }  // namespace
 
 std::string write_run_header(const RunHeader& header) {
-  const Json rest = {{"version", header.version},
-                     {"scene_digest", header.scene.text_digest},
-                     {"input_digest", header.input_digest},
-                     {"masses", to_json(header.masses)},
-                     {"centres_of_mass", to_json(header.centres_of_mass)}};
+  const std::string scene = write_scene(header.scene);
+  const std::string resolved_digest =
+      detail::sha256(detail::write_json(detail::parse_json(scene, "scene", 1)));
+  const Json rest = {
+      {"version", header.version},          {"scene_digest", header.scene.text_digest},
+      {"resolved_digest", resolved_digest}, {"input_digest", header.input_digest},
+      {"masses", to_json(header.masses)},   {"centres_of_mass", to_json(header.centres_of_mass)}};
   const char* kind = header.kind == RunKind::haptics ? "\"kind\":\"haptics\"," : "";
   // The scene has a writer of its own.
-  return std::string("{\"firstcontact_run\":1,") + kind + "\"scene\":" + write_scene(header.scene) +
-         "," + rest.dump().substr(1) + "\n";
+  return std::string("{\"firstcontact_run\":1,") + kind + "\"scene\":" + scene + "," +
+         rest.dump().substr(1) + "\n";
 }
 
 std::string write_run_step(const RunStep& step) {
