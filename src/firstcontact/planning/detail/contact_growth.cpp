@@ -24,7 +24,7 @@ constexpr double kFewEdges = 10.0;
 }  // namespace
 
 ContactGrowth::ContactGrowth(PlanWork& work, ContactUse use, double range)
-    : work_(work), use_(use), range_(range) {
+    : work_(work), use_(use), range_(range), random_(~work.options().seed) {
   if (use == ContactUse::sample || use == ContactUse::both) {
     gaps_.emplace(work.scene());
   }
@@ -37,12 +37,17 @@ ContactSteering& ContactGrowth::steering() {
   return *steering_;
 }
 
-void ContactGrowth::next(bool is_stuck, RandomNumbers& random) {
+void ContactGrowth::next(bool is_stuck) {
   is_stuck_ = is_stuck;
-  if (use_ == ContactUse::none || use_ == ContactUse::slide) {
+  turn_ = Turn::edges;
+  if (!is_due()) {
     return;
   }
-  const std::size_t drawn = random.below(4);
+  has_begun_ = true;
+  if (use_ == ContactUse::slide) {
+    return;
+  }
+  const std::size_t drawn = random_.below(4);
   const bool has_gaps = gaps_->may_draw();
   if (is_stuck) {
     turn_ = drawn < 2 && use_ == ContactUse::both ? Turn::pushes : Turn::edges;
@@ -150,23 +155,29 @@ std::optional<ContactGrowth::Left> ContactGrowth::leave(PlanTree& tree, std::siz
   return end ? std::optional(Left{*end, !steering().is_near(tree[*end])}) : std::nullopt;
 }
 
-std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& random) {
+std::optional<std::size_t> ContactGrowth::push(PlanTree& tree) {
   if (turn_ != Turn::pushes || tree.marked().empty() || !is_due()) {
     return std::nullopt;
   }
   return counted([&] {
     const std::vector<std::size_t>& marked = tree.marked();
     const std::size_t from =
-        random.below(2) == 0 ? marked.back() : marked[random.below(marked.size())];
+        random_.below(2) == 0 ? marked.back() : marked[random_.below(marked.size())];
     ++work_.counts().contacts.pushes;
     const Configuration begin = tree[from];
-    return take(tree, from, steering().push(begin, steering().direction(random)));
+    return take(tree, from, steering().push(begin, direction(begin)));
   });
 }
 
-void ContactGrowth::find_passage(RandomNumbers& random) {
+Eigen::VectorXd ContactGrowth::direction(const Configuration& from) {
+  const auto ways = random_.below(2) == 0 ? ways_out(from) : decltype(ways_out(from))();
+  return ways.empty() ? steering().direction(random_)
+                      : ways[random_.below(ways.size())].at(random_.below(2));
+}
+
+void ContactGrowth::find_passage() {
   ++draws_;
-  const std::optional<GapSampler::Place> place = gaps_->draw(random);
+  const std::optional<GapSampler::Place> place = gaps_->draw(random_);
   const ConfigurationSpace& space = work_.space();
   if (!place || !space.holds(place->q) ||
       passages_.distance(space, place->q) < kSamePassage * range_ || !work_.is_free(place->q)) {
@@ -187,19 +198,18 @@ void ContactGrowth::find_passage(RandomNumbers& random) {
 }
 
 std::optional<PassageTrees::Node> ContactGrowth::passage(std::size_t tree,
-                                                         const Configuration& near,
-                                                         RandomNumbers& random) {
+                                                         const Configuration& near) {
   if (turn_ != Turn::passages || !is_due()) {
     return std::nullopt;
   }
   // Draws become more seldom, but never end.
-  if (draws_ < kFirstDraws || random.below(draws_) < kFirstDraws) {
+  if (draws_ < kFirstDraws || random_.below(draws_) < kFirstDraws) {
     counted([&] {
-      find_passage(random);
+      find_passage();
       return true;
     });
   }
-  return passages_.draw(work_.space(), tree, near, random);
+  return passages_.draw(work_.space(), tree, near, random_);
 }
 
 }  // namespace firstcontact::detail

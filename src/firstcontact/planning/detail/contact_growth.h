@@ -24,7 +24,8 @@ namespace firstcontact::detail {
 /// Grows trees in contact. It does nothing for ContactUse::none.
 ///
 /// Work in contact is rationed by the number of edges: little at first, then more the longer the
-/// search takes. So an easy question is answered as quickly as without contacts.
+/// search takes. It draws random numbers of its own. So an easy question is answered by the same
+/// search as without contacts, and as quickly.
 class ContactGrowth {
  public:
   ContactGrowth(PlanWork& work, ContactUse use, double range);
@@ -39,7 +40,10 @@ class ContactGrowth {
   ///
   /// @param is_stuck  no edge has led away from the root of the tree: contacts are then not
   ///                  rationed
-  void next(bool is_stuck, RandomNumbers& random);
+  void next(bool is_stuck);
+
+  /// Whether work in contact has become due, once or more.
+  [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// Follows a blocked edge from a node as far as contacts let it.
   ///
@@ -62,13 +66,12 @@ class ContactGrowth {
   /// Moves from a marked place in a random direction, and returns the node at the end.
   ///
   /// It returns none where that leads nowhere, or is not its turn.
-  std::optional<std::size_t> push(PlanTree& tree, RandomNumbers& random);
+  std::optional<std::size_t> push(PlanTree& tree);
 
   /// A node of a passage as a target for a tree, 0 or 1; none where it is not its turn.
   ///
   /// Now and then it finds a new passage first.
-  std::optional<PassageTrees::Node> passage(std::size_t tree, const Configuration& near,
-                                            RandomNumbers& random);
+  std::optional<PassageTrees::Node> passage(std::size_t tree, const Configuration& near);
 
   [[nodiscard]] PassageTrees& passages() { return passages_; }
 
@@ -81,7 +84,9 @@ class ContactGrowth {
   [[nodiscard]] ContactSteering& steering();
   std::optional<std::size_t> take(PlanTree& tree, std::size_t from, const ContactWay& way);
 
-  void find_passage(RandomNumbers& random);
+  /// A direction for a push: a random one, or one in which the contacts are loose.
+  [[nodiscard]] Eigen::VectorXd direction(const Configuration& from);
+  void find_passage();
   std::optional<Followed> go(PlanTree& tree, std::size_t from, const Configuration& target);
 
   template <class Work>
@@ -95,6 +100,7 @@ class ContactGrowth {
   PlanWork& work_;
   ContactUse use_;
   double range_;
+  RandomNumbers random_;
   std::optional<ContactSteering> steering_;  // Made at the first use: easy questions have none.
   enum class Turn { edges, pushes, passages };
   Turn turn_ = Turn::edges;
@@ -102,6 +108,7 @@ class ContactGrowth {
   PassageTrees passages_;
   std::size_t draws_ = 0;  // Number of draws of gaps.
   bool is_stuck_ = false;
+  bool has_begun_ = false;
   std::size_t spent_ = 0;    // Edges that were checked in contact.
   std::size_t leaving_ = 0;  // Edges of leave(), which are not rationed.
 };

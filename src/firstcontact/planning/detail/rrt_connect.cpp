@@ -14,11 +14,17 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kTriesToLeave = 8;   // Number of iterations before pushes, and before a tree
+constexpr std::size_t kTriesToLeave = 24;  // Number of iterations before pushes, and before a tree
                                            // is stuck.
 constexpr std::size_t kReportEvery = 256;  // Number of iterations.
 
 /// [-]  The domain of a place with a blocked edge, in ranges.
+///
+/// Places beside obstacles are the nearest to many samples behind these, which lead nowhere. Once
+/// edges are followed along contacts, a blocked edge is useful, and domains do not count.
+///
+/// Source: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle, "Dynamic-domain RRTs: efficient
+/// exploration by controlling the sampling domain", ICRA 2005.
 ///
 /// A range below the default does not shorten it. Few samples would then count, and each costs a
 /// search for the nearest place.
@@ -58,14 +64,14 @@ class Connect {
       }
       const bool is_stuck =
           iteration >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
-      contact_.next(is_stuck, random);
+      contact_.next(is_stuck);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
       }
-      if (const auto met = push(grows, random)) {
+      if (const auto met = push(grows)) {
         return joined(*met);
       }
-      if (const auto met = reach_passage(grows, random)) {
+      if (const auto met = reach_passage(grows)) {
         return joined(*met);
       }
       // The smaller tree grows next: J. Kuffner's balance.
@@ -90,7 +96,7 @@ class Connect {
     PlanTree& tree = trees_[grows];
     const std::size_t near = tree.nearest(sample);
     const double length = work_.space().distance(tree[near], sample);
-    if (!(length > 0.0) || length > tree.domain(near)) {
+    if (!(length > 0.0) || (length > tree.domain(near) && !contact_.has_begun())) {
       return std::nullopt;
     }
     const Configuration target =
@@ -98,24 +104,11 @@ class Connect {
     if (work_.is_free(tree[near], target)) {
       return meet(grows, tree.add(target, near));
     }
-    narrow_domain(tree, near);
+    tree.set_domain(near, domain_);
     if (const auto followed = contact_.follow(tree, near, target)) {
       return meet(grows, followed->node);
     }
     return std::nullopt;
-  }
-
-  /// Narrows the domain of a place with a blocked edge.
-  ///
-  /// Places beside obstacles are the nearest to many samples behind these, which lead nowhere. With
-  /// contacts a blocked edge is useful, so domains stay as they are.
-  ///
-  /// Source: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle, "Dynamic-domain RRTs: efficient
-  /// exploration by controlling the sampling domain", ICRA 2005.
-  void narrow_domain(PlanTree& tree, std::size_t node) const {
-    if (work_.options().contacts == ContactUse::none) {
-      tree.set_domain(node, domain_);
-    }
   }
 
   /// Pushes out of the contacts at the roots of a tree, as an assembly is taken apart, until one is
@@ -149,15 +142,15 @@ class Connect {
   }
 
   /// Moves in contact in a random direction, then extends the other tree towards the end.
-  std::optional<Meeting> push(std::size_t grows, RandomNumbers& random) {
-    const std::optional<std::size_t> end = contact_.push(trees_[grows], random);
+  std::optional<Meeting> push(std::size_t grows) {
+    const std::optional<std::size_t> end = contact_.push(trees_[grows]);
     return end ? meet(grows, *end) : std::nullopt;
   }
 
   /// Extends a tree to a passage and takes it over, or meets the other tree if that has it already.
-  std::optional<Meeting> reach_passage(std::size_t grows, RandomNumbers& random) {
+  std::optional<Meeting> reach_passage(std::size_t grows) {
     PlanTree& tree = trees_[grows];
-    const auto passage = contact_.passage(grows, tree[tree.size() - 1], random);
+    const auto passage = contact_.passage(grows, tree[tree.size() - 1]);
     if (!passage) {
       return std::nullopt;
     }
