@@ -115,7 +115,7 @@ TEST(TrackingError, HoldsForABodyThatWasPutDown) {
   };
   EXPECT_EQ(check(0.05, 0.0), Verdict::free);
   EXPECT_EQ(check(0.06, 0.01), Verdict::free);
-  EXPECT_EQ(check(0.05, 0.01), Verdict::contact);  // 5 m from the joint: 0.05, and its own 0.1.
+  EXPECT_EQ(check(0.05, 0.01), Verdict::contact);  // 5 m from the joint: 0.05.
 }
 
 /// A floating joint and a ball: the error of the child's frame.

@@ -32,7 +32,7 @@ struct ContactInterval {
 struct PairAnswer : FirstContactResult {
   BodyPair members = {};
   /// [m]  The distance at which contact begins. For links it includes both paddings, and the effect
-  /// of the tracking errors about t.
+  /// of the tracking errors at t.
   double margin = 0.0;
   /// Intervals of contact, in order, where requested.
   std::vector<ContactInterval> intervals = {};

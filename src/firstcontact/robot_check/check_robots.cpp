@@ -256,7 +256,7 @@ class RobotCheck {
     const bool adds = !decides && found.t == pair.t && is_contact(found.verdict);
     merge(found, pair);
     if (decides) {
-      pair.margin = candidate.threshold;
+      pair.margin = answer.margin;
       pair.contact_count = found.contact_count;
       contacts.clear();
       contacts.add(found.contacts);
@@ -399,7 +399,8 @@ class RobotCheck {
       pair.clearance = std::numeric_limits<double>::infinity();
       return;
     }
-    const double proven = holds_ ? holds_->least(index) : pair.margin;
+    // The effect of tracking errors may be less before t than at t.
+    const double proven = holds_ ? holds_->least(index) : timeline_.pairs()[index].margin;
     pair.clearance =
         std::max(pair.t > 0.0 ? proven : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
     if (holds_) {

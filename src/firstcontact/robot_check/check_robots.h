@@ -51,7 +51,8 @@ struct RobotCheckOptions {
 ///
 /// Before t every pair is proven farther apart than its margin, paddings included. That holds for
 /// the exact motions that the input defines, and for all that stay within the tracking errors. At a
-/// contact the nominal motion's distance is no more than margin + tolerance. The answer is the same
+/// contact the nominal motion's distance is no more than margin + tolerance. The bound of the
+/// tracking errors at that time is added to the margin. The answer is the same
 /// on every run and for every number of threads, unless the deadline or the stop token ends it.
 ///
 /// Method: the search goes through the pieces of the trajectories, several at once, and ends at the

@@ -19,7 +19,8 @@ namespace {
 /// Two geometries, and a lower bound of their distance by balls.
 struct NearGeometries {
   double bound = 0.0;      ///< [m]
-  double threshold = 0.0;  ///< [m]
+  double margin = 0.0;     ///< [m]
+  double threshold = 0.0;  ///< [m]  Bound of the margin with tracking errors.
   std::array<std::size_t, 2> geometries = {};
 };
 
@@ -42,12 +43,23 @@ class GapSampler {
         nearest_ = near.geometries;
       }
       gap.lower_bound = std::min(gap.lower_bound, found.lower_bound);
-      gap.contact = gap.contact || found.distance <= near.threshold;
+      gap.contact = gap.contact || is_contact(near, t, found.distance);
     }
     return gap;
   }
 
  private:
+  /// Whether a distance is that of a contact, as a check bounds the tracking errors.
+  [[nodiscard]] bool is_contact(const NearGeometries& near, double t, double distance) {
+    if (distance <= near.margin || distance > near.threshold) {
+      return distance <= near.margin;
+    }
+    const auto [a, b] = near.geometries;
+    return distance <= near.margin + timeline_.paths(a, b, t).tracking_bound(
+                                         timeline_.geometries()[a], timeline_.geometries()[b],
+                                         {t, t}, workspace_.places);
+  }
+
   /// Two geometries with their motions about a time.
   class GeometryPair {
    public:
@@ -122,7 +134,8 @@ class GapSampler {
       }
       for (const auto& [a, b] : timeline_.geometry_pairs(pair)) {
         const double errors = balls[a].tracking_error + balls[b].tracking_error;
-        all.push_back({detail::gap_bound(balls[a], balls[b]), pair.margin + errors, {a, b}});
+        all.push_back(
+            {detail::gap_bound(balls[a], balls[b]), pair.margin, pair.margin + errors, {a, b}});
       }
     }
     std::sort(all.begin(), all.end(), [this](const NearGeometries& x, const NearGeometries& y) {

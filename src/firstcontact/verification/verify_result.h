@@ -65,7 +65,8 @@ struct ResultVerification {
 ///   left open. It is shorter than the pair takes for 2^-38 of its size, and than 2^-30.
 ///   `left_open` has the longest.
 /// - The pair of a contact is no farther apart at t than margin + tolerance, for the nominal
-///   motion. So is each pair that the result states as in contact.
+///   motion. With tracking errors their bound at t is added to the margin. The same holds for each
+///   pair that the result states as in contact.
 /// - No tested pair comes closer before t than the `clearance`, except for 2^-20 of it and
 ///   rounding. The same holds for each pair that has its own.
 /// - The tested pairs are those of the scene, all of them, by an account of its own.

@@ -167,12 +167,11 @@ EdgeFound EdgeSearch::any_contact(std::vector<GeometryCandidate> candidates,
   std::erase_if(candidates, [](const GeometryCandidate& candidate) {
     return candidate.window.begin > candidate.window.end;
   });
-  // The middles of whole windows have been tested, without tracking errors.
+  // The middles of whole windows have been tested.
   const bool is_clipped = piece.begin < within.begin || piece.end > within.end;
   for (const GeometryCandidate& candidate : candidates) {
     const double middle = 0.5 * (candidate.window.begin + candidate.window.end);
-    if (candidate.gap < 0.0 && (is_clipped || timeline_.has_tracking_errors()) &&
-        is_contact(ask(candidate, {middle, middle}).verdict)) {
+    if (candidate.gap < 0.0 && is_clipped && is_contact(ask(candidate, {middle, middle}).verdict)) {
       return contact_of(candidate);
     }
   }

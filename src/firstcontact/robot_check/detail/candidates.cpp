@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// [-]  Share by which a bound of tracking errors over a window may exceed that at its middle.
-constexpr double kLooseError = 0.05;
-constexpr int kErrorDepth = 8;
-
 /// [-]  Part of the distance at a window's middle from which a gap is accepted: greater gaps cost
 /// more than the windows that they save.
 constexpr double kNear = 0.5;
@@ -47,6 +43,7 @@ class Search {
         held_(held),
         distance_(distance),
         has_tracking_errors_(!distance && timeline.has_tracking_errors()),
+        scratch_(has_tracking_errors_ ? std::make_optional<LinkScratch>() : std::nullopt),
         trees_(trees),
         resting_(resting),
         robots_(trees.size()),
@@ -58,16 +55,14 @@ class Search {
   }
 
   std::vector<GeometryCandidate> run_until_contact(const WindowProbe& probe) {
-    window_probe_ = has_tracking_errors_ ? nullptr : &probe;
+    window_probe_ = &probe;
     return run_of(near_by_boxes({}));
   }
 
   ProbedCandidates run_unless_contact(const InstantProbe& probe) {
-    probe_ = has_tracking_errors_ ? nullptr : &probe;
+    probe_ = &probe;
     std::vector<Question> near = near_by_boxes({});
-    if (probe_ != nullptr) {
-      probe_end(near);
-    }
+    probe_end(near);
     std::vector<GeometryCandidate> candidates = run_of(std::move(near));
     return {std::move(candidates), contact_};
   }
@@ -97,15 +92,6 @@ class Search {
       return {};
     }
     join_windows();
-    const std::vector<GeometryCandidate> whole = std::exchange(found_, {});
-    for (const GeometryCandidate& candidate : whole) {
-      if (has_tracking_errors_) {
-        add_thresholds(candidate, 0);
-      } else {
-        found_.push_back(candidate);
-        found_.back().threshold = margin_of(candidate.pair);
-      }
-    }
     std::sort(found_.begin(), found_.end());
     return std::move(found_);
   }
@@ -225,7 +211,13 @@ class Search {
   [[nodiscard]] GeometryCandidate candidate_of(const Question& question,
                                                const TimeWindow& window) const {
     const double margin = margin_of(question.pair);
-    return {window, piece_, question.pair, question.geometries, margin, question.middle - margin};
+    return {.window = window,
+            .piece = piece_,
+            .pair = question.pair,
+            .geometries = question.geometries,
+            .threshold = margin,
+            .has_tracking_errors = has_tracking_errors_,
+            .gap = question.middle - margin};
   }
 
   /// Probes candidates of one instant, the deepest first, until the probe finds a contact.
@@ -317,15 +309,17 @@ class Search {
     double threshold = margin_of(question.pair);
     if (has_tracking_errors_) {
       for (std::size_t k = 0; k < 2; ++k) {
-        threshold += question.placed ? placed_[(*question.placed)[k]].tracking_bound(window)
-                                     : tracking_bound(question.geometries[k], window);
+        threshold += question.placed
+                         ? placed_[(*question.placed)[k]].tracking_bound(window, *scratch_)
+                         : tracking_bound(question.geometries[k], window);
       }
     }
     return threshold * kUp;
   }
 
   double tracking_bound(std::size_t geometry, const GridWindow& window = {}) {
-    return resting_[geometry] ? 0.0 : placed_[place_in_world(geometry)].tracking_bound(window);
+    return resting_[geometry] ? 0.0
+                              : placed_[place_in_world(geometry)].tracking_bound(window, *scratch_);
   }
 
   const SweptGeometry& in_world(std::size_t geometry, const GridWindow& window) {
@@ -418,25 +412,6 @@ class Search {
     found_ = std::move(joined);
   }
 
-  /// Adds candidates for windows so short that the bound of tracking errors is tight.
-  void add_thresholds(const GeometryCandidate& candidate, int depth) {
-    const auto& [window, piece, pair, geometries, unused, gap, no_hold] = candidate;
-    const double middle = 0.5 * (window.begin + window.end);
-    const PairPaths paths = timeline_.paths(geometries[0], geometries[1], middle);
-    const auto error_over = [&, &geometries = candidate.geometries](const TimeWindow& stretch) {
-      return (paths.A.tracking_bound(timeline_.geometries()[geometries[0]].ball, stretch) +
-              paths.B.tracking_bound(timeline_.geometries()[geometries[1]].ball, stretch)) *
-             kUp;
-    };
-    const double error = error_over(window);
-    if (depth < kErrorDepth && error > (1.0 + kLooseError) * error_over({middle, middle})) {
-      add_thresholds({{window.begin, middle}, piece, pair, geometries, 0.0, gap}, depth + 1);
-      add_thresholds({{middle, window.end}, piece, pair, geometries, 0.0, gap}, depth + 1);
-      return;
-    }
-    found_.push_back({window, piece, pair, geometries, margin_of(pair) + error, gap});
-  }
-
   const RobotTimeline& timeline_;
   std::size_t piece_;
   TimeGrid grid_;
@@ -444,6 +419,7 @@ class Search {
   std::span<const double> held_;  // [m]  For each tested pair, or empty.
   std::optional<double> distance_;
   bool has_tracking_errors_;
+  std::optional<LinkScratch> scratch_;  // Where there are tracking errors.
   const std::vector<RobotTree>& trees_;
   const std::vector<std::optional<SweptGeometry>>& resting_;
   SearchMemory memory_;

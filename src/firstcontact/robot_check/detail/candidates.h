@@ -28,7 +28,9 @@ struct GeometryCandidate {
   std::size_t pair = 0;                        ///< Index of the pair among the tested pairs.
   std::array<std::size_t, 2> geometries = {};  ///< Index of each geometry in its member, in the
                                                ///< order of the members.
-  double threshold = 0.0;         ///< [m]  Margin, paddings, and tracking errors over the window.
+  double threshold = 0.0;                      ///< [m]  Margin and paddings.
+  bool has_tracking_errors = false;            ///< Whether these count besides the threshold, see
+                                               ///< first_contact_within_errors().
   double gap = 0.0;               ///< [m]  A bound of their distance at some time of the window.
   std::optional<Hold> hold = {};  ///< Hold in place of the threshold, for keep_half.
 
@@ -74,16 +76,18 @@ class CandidateSearch {
 
   /// Finds candidates, unless a probe finds a contact.
   ///
-  /// Without tracking errors the probe is called where the hulls of two geometries are no farther
-  /// apart than their threshold: at the end of the piece, or at the middle of a window.
+  /// The probe is called where the hulls of two geometries are no farther apart than their
+  /// threshold: at the end of the piece, or at the middle of a window. Tracking errors count only
+  /// at middles of windows, by their bound over the window.
   [[nodiscard]] ProbedCandidates find_unless_contact(std::size_t piece,
                                                      const InstantProbe& probe) const;
 
   /// Finds candidates from the begin of the piece on, as far as they matter.
   ///
-  /// Without tracking errors the probe searches windows at whose middle the hulls of two geometries
-  /// are no farther apart than their threshold. These windows are not among the candidates. Windows
-  /// are left out, or end earlier, where the probe has found that nothing matters later.
+  /// The probe searches windows at whose middle the hulls of two geometries are no farther apart
+  /// than their threshold, with the bound of tracking errors over the window. These windows are not
+  /// among the candidates. Windows are left out, or end earlier, where the probe has found that
+  /// nothing matters later.
   [[nodiscard]] std::vector<GeometryCandidate> find_until_contact(std::size_t piece,
                                                                   const WindowProbe& probe) const;
 

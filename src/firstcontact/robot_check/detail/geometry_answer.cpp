@@ -21,6 +21,7 @@ FirstContactResult inside_at(GeometrySearch& search, double t) {
 
 void finish(GeometrySearch& search, GeometryAnswer& answer) {
   answer.first.contacts = search.in_world(answer.first.contacts, answer.first.t);
+  answer.margin = search.threshold_at(answer.first.t);
   if (answer.first.verdict == Verdict::free) {
     answer.first.t = 1.0;
   }
@@ -43,12 +44,12 @@ GeometryAnswer first_contact_of(GeometrySearch& search, const GeometryCandidate&
 GeometryAnswer contact_intervals_of(GeometrySearch& search, const GeometryCandidate& candidate,
                                     double resolution) {
   GeometryAnswer answer = first_contact_of(search, candidate, candidate.window.end, true);
+  const double margin = candidate.threshold;
   const ContactQueries queries{
       .first_contact = [&](const TimeWindow& window) { return search.first_contact(window); },
-      .distance = [&](double t) { return search.distance(t); }};
+      .distance = [&](double t) { return search.distance(t) - (search.threshold_at(t) - margin); }};
   IntervalsFound found = contact_intervals(
-      answer.first,
-      {.window = candidate.window, .margin = candidate.threshold, .resolution = resolution},
+      answer.first, {.window = candidate.window, .margin = margin, .resolution = resolution},
       queries);
   answer.intervals = std::move(found.intervals);
   answer.first.tolerance_used = std::max(answer.first.tolerance_used, found.tolerance_used);

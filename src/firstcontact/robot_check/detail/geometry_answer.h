@@ -14,6 +14,7 @@ namespace firstcontact::detail {
 struct GeometryAnswer {
   FirstContactResult first;  ///< The first contact, with contacts in the world. When free, `t` is
                              ///< 1.
+  double margin = 0.0;       ///< [m]  The distance at which contact begins, at the time of `first`.
   std::vector<ContactInterval> intervals;
   WorkCount work;
 };

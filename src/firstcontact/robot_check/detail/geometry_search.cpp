@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include <firstcontact/narrowphase/convex_closest.h>
 #include <firstcontact/narrowphase/convex_pair.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/robot_check/detail/tracked_contact.h>
 #include <firstcontact/robot_check/link_pair_motion.h>
 
 namespace firstcontact::detail {
@@ -45,6 +47,12 @@ double distance_of_set(const Shape& set, const LinkPose& X_FS, const Triangle& t
   ConvexGuess guess;
   guess.n = (B.centre - A.centre).stableNormalized();
   return closest_points(A, B, {}, guess).distance;
+}
+
+/// [m]  The threshold with a bound of tracking errors, rounded up.
+double threshold_beyond(double threshold, double error) {
+  return error > 0.0 ? std::nextafter(threshold + error, std::numeric_limits<double>::infinity())
+                     : threshold;
 }
 
 LinkBall ball_of_link(const MovingLink& link) {
@@ -105,7 +113,43 @@ FirstContactOptions GeometrySearch::options_of_candidate() const {
           .budget = options_.budget};
 }
 
+double GeometrySearch::tracking_bound(const TimeWindow& window) {
+  const auto& [a, b] = candidate_.geometries;
+  return paths_.tracking_bound(timeline_.geometries()[a], timeline_.geometries()[b], window,
+                               workspace_.places);
+}
+
+double GeometrySearch::threshold_at(double t) {
+  return candidate_.has_tracking_errors
+             ? threshold_beyond(candidate_.threshold, tracking_bound({t, t}))
+             : candidate_.threshold;
+}
+
+template <class Ask>
+FirstContactResult GeometrySearch::within_errors(const TimeWindow& window, const Ask& ask) {
+  const auto ask_part = [&](const TimeWindow& part, double error, double tolerance,
+                            std::uint64_t steps) {
+    FirstContactOptions query = options_of_candidate();
+    query.margin = threshold_beyond(candidate_.threshold, error);
+    query.tolerance = tolerance;
+    query.budget.steps = steps;
+    FirstContactResult result;
+    ask(part, query, result);
+    return result;
+  };
+  return first_contact_within_errors(
+      window, options_.tolerance, options_.budget.steps,
+      {.error = [this](const TimeWindow& part) { return tracking_bound(part); },
+       .first_contact = ask_part});
+}
+
 FirstContactResult GeometrySearch::first_contact(const TimeWindow& window) {
+  if (candidate_.has_tracking_errors) {
+    return within_errors(window, [this](const TimeWindow& part, const FirstContactOptions& query,
+                                        FirstContactResult& result) {
+      detail::first_contact({A_, X_FA_}, {B_, X_FB_}, part, workspace_, query, result);
+    });
+  }
   FirstContactResult result;
   if (candidate_.hold) {
     detail::first_contact_held({A_, X_FA_}, {B_, X_FB_}, window, *candidate_.hold, workspace_,
@@ -117,17 +161,33 @@ FirstContactResult GeometrySearch::first_contact(const TimeWindow& window) {
   return result;
 }
 
+void GeometrySearch::first_contact_of_hulls(const TimeWindow& window, double early,
+                                            const FirstContactOptions& query,
+                                            FirstContactResult& result) {
+  const auto& [a, b] = candidate_.geometries;
+  detail::first_contact_early(
+      {A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, timeline_.geometries()[a].corners),
+      hull_of(B_, A_, timeline_.geometries()[b].corners), window, early, workspace_, query, result);
+}
+
 FirstContactResult GeometrySearch::first_contact_early(const TimeWindow& window, double early) {
   const auto& [a, b] = candidate_.geometries;
-  const HullCorners& corners_A = timeline_.geometries()[a].corners;
-  const HullCorners& corners_B = timeline_.geometries()[b].corners;
-  if (corners_A.points.empty() || corners_B.points.empty()) {
+  if (timeline_.geometries()[a].corners.points.empty() ||
+      timeline_.geometries()[b].corners.points.empty()) {
     return first_contact(window);
   }
+  if (candidate_.has_tracking_errors) {
+    return within_errors(window, [this](const TimeWindow& part, const FirstContactOptions& query,
+                                        FirstContactResult& result) {
+      if (part.begin < part.end) {
+        first_contact_of_hulls(part, 0.0, query, result);
+      } else {
+        detail::first_contact({A_, X_FA_}, {B_, X_FB_}, part, workspace_, query, result);
+      }
+    });
+  }
   FirstContactResult result;
-  detail::first_contact_early({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
-                              hull_of(B_, A_, corners_B), window, early, workspace_,
-                              options_of_candidate(), result);
+  first_contact_of_hulls(window, early, options_of_candidate(), result);
   return result;
 }
 
@@ -146,17 +206,15 @@ FirstContactResult GeometrySearch::features_within(double t, double distance) {
 FirstContactResult GeometrySearch::first_contact(const TimeWindow& window, double margin,
                                                  double tolerance) {
   const auto& [a, b] = candidate_.geometries;
-  const HullCorners& corners_A = timeline_.geometries()[a].corners;
-  const HullCorners& corners_B = timeline_.geometries()[b].corners;
-  if (window.begin < window.end && !corners_A.points.empty() && !corners_B.points.empty()) {
+  if (window.begin < window.end && !timeline_.geometries()[a].corners.points.empty() &&
+      !timeline_.geometries()[b].corners.points.empty()) {
     FirstContactResult result;
-    detail::first_contact_early({A_, X_FA_}, {B_, X_FB_}, hull_of(A_, B_, corners_A),
-                                hull_of(B_, A_, corners_B), window, 0.0, workspace_,
-                                {.margin = margin,
-                                 .tolerance = tolerance,
-                                 .contacts = ContactState::none,
-                                 .budget = options_.budget},
-                                result);
+    first_contact_of_hulls(window, 0.0,
+                           {.margin = margin,
+                            .tolerance = tolerance,
+                            .contacts = ContactState::none,
+                            .budget = options_.budget},
+                           result);
     return result;
   }
   return ask(window, {.margin = margin, .tolerance = tolerance, .contacts = ContactState::none});

@@ -26,14 +26,22 @@ class GeometrySearch {
   /// Finds the first contact in a window, with the candidate's threshold or hold.
   ///
   /// Before the window the two are proven free and not inside of each other. When free, `t` is its
-  /// end. The tolerance is that of the options.
+  /// end. The tolerance is that of the options. With tracking errors the threshold is that of each
+  /// instant, see first_contact_within_errors().
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
 
   /// Finds the first contact without hold or contacts.
   ///
-  /// `t` may be earlier than the contact by `early` [-]; `t_upper` is the time of the contact. Only
+  /// `t` may be earlier than the contact by `early` [-]; `t_upper` is the time of the contact. With
+  /// tracking errors `t` is that time, too. Only
   /// verdict, reason and times of the result have a meaning.
   [[nodiscard]] FirstContactResult first_contact_early(const TimeWindow& window, double early);
+
+  /// [m]  The threshold at a time of the piece: the margin, paddings and tracking errors.
+  [[nodiscard]] double threshold_at(double t);
+
+  /// [m]  Bound of the effect of tracking errors in a window of the piece.
+  [[nodiscard]] double tracking_bound(const TimeWindow& window);
 
   /// Finds the first contact with another margin and tolerance, without contacts.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
@@ -75,6 +83,11 @@ class GeometrySearch {
  private:
   [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
   [[nodiscard]] FirstContactOptions options_of_candidate() const;
+  /// Finds the first contact with the threshold of each instant.
+  template <class Ask>
+  [[nodiscard]] FirstContactResult within_errors(const TimeWindow& window, const Ask& ask);
+  void first_contact_of_hulls(const TimeWindow& window, double early,
+                              const FirstContactOptions& query, FirstContactResult& result);
   /// The pose of the candidate's frame at t.
   [[nodiscard]] LinkPose frame_at(double t) const;
   [[nodiscard]] Contact placed(const Contact& contact, const LinkPose& X_WF) const;

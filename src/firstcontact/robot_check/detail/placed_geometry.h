@@ -51,8 +51,8 @@ class PlacedGeometry {
   }
 
   /// [m]  Bound of the distance of any point from its place in the window.
-  [[nodiscard]] double tracking_bound(const GridWindow& window) const {
-    return path_ ? path_->tracking_bound(geometry_->box, grid_.at(window)) : 0.0;
+  [[nodiscard]] double tracking_bound(const GridWindow& window, LinkScratch& scratch) const {
+    return path_ ? path_->tracking_bound(geometry_->core, grid_.at(window), scratch) : 0.0;
   }
 
  private:

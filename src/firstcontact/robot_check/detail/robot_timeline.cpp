@@ -17,6 +17,10 @@ RoundedBox ball_around(const Shape& shape) {
   return {.centre = hierarchy.centre, .radius = (hierarchy.radius + shape.radius()) * kUp};
 }
 
+RoundedBox core_ball(const Shape& shape) {
+  return {.centre = shape.hierarchy().centre, .radius = shape.hierarchy().radius * kUp};
+}
+
 RoundedBox box_around(const Shape& shape) {
   const ShapeBounds& bounds = shape.bounds();
   return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
@@ -46,13 +50,19 @@ bool is_at_rest(const std::vector<std::shared_ptr<const JointPath>>& pieces) {
 
 }  // namespace
 
-double GeometryPath::tracking_bound(const RoundedBox& ball, const TimeWindow& window) const {
+double GeometryPath::tracking_bound(const RoundedBox& ball, const TimeWindow& window,
+                                    LinkScratch& scratch) const {
   if (errors.empty()) {
     return rest_error;
   }
-  LinkScratch scratch;
   const double middle = 0.5 * (window.begin + window.end);
   return rest_error + X_FS.tracking_bound(middle, window.begin, window.end, ball, errors, scratch);
+}
+
+double PairPaths::tracking_bound(const BoundedGeometry& a, const BoundedGeometry& b,
+                                 const TimeWindow& window, LinkScratch& scratch) const {
+  return (A.tracking_bound(a.core, window, scratch) + B.tracking_bound(b.core, window, scratch)) *
+         kUp;
 }
 
 RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
@@ -92,6 +102,7 @@ void RobotTimeline::add_geometries(std::size_t member) {
         g,
         &geometries[g].shape,
         ball_around(geometries[g].shape),
+        core_ball(geometries[g].shape),
         box_around(geometries[g].shape),
         (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
     geometry.bounds = &geometries[g].shape.bounds();
@@ -127,7 +138,7 @@ RobotTimeline::Seat RobotTimeline::carried_seat(const BodyStretch::Carried& carr
 }
 
 std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member) const {
-  const RoundedBox ball = ball_around(scene_.geometries(member)[0].shape);
+  const RoundedBox ball = core_ball(scene_.geometries(member)[0].shape);
   std::vector<Seat> seats;
   for (const BodyStretch& stretch : scene_.stretches(member)) {
     Seat seat;
@@ -141,7 +152,8 @@ std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member
           JointPath::of_motion({}, rest.path(0, Eigen::Vector3d::Zero())))};
       // The body was put down with the error with which it was carried.
       const double t = stretch.t_begin;
-      seat.rest_error = path(seats.back(), t, std::nullopt).tracking_bound(ball, {t, t});
+      LinkScratch scratch;
+      seat.rest_error = path(seats.back(), t, std::nullopt).tracking_bound(ball, {t, t}, scratch);
     } else {
       const std::span<const double> breaks = scene_.body_motion(member).breaks();
       seat.ends.assign(breaks.begin() + 1, breaks.end());

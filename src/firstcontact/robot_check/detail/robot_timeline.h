@@ -27,7 +27,8 @@ struct BoundedGeometry {
   std::size_t index = 0;  ///< Index among the geometries of the member.
   const Shape* shape = nullptr;
   RoundedBox ball;     ///< Ball around the shape, thickening included, in its frame S.
-  RoundedBox box;      ///< Box around the shape likewise.
+  RoundedBox core;     ///< Ball around the shape without its thickening, which moves as its core.
+  RoundedBox box;      ///< Box around the shape, thickening included.
   double reach = 0.0;  ///< [m]  Reach of the thickened shape from the centre of the box.
   bool rests = false;  ///< Whether its frame S, and so its bounds, rest over the whole step.
   const ShapeBounds* bounds = nullptr;  ///< Those of the shape.
@@ -80,8 +81,9 @@ struct GeometryPath {
   std::vector<TrackingError> errors;  ///< One for each joint of the path; empty if all are zero.
   double rest_error = 0.0;            ///< [m]  Error of a body that was put down.
 
-  /// [m]  Bound of the distance of any point from its place in the window.
-  [[nodiscard]] double tracking_bound(const RoundedBox& ball, const TimeWindow& window) const;
+  /// [m]  Bound of the distance of any point of a ball from its place in the window.
+  [[nodiscard]] double tracking_bound(const RoundedBox& ball, const TimeWindow& window,
+                                      LinkScratch& scratch) const;
 };
 
 /// The carrier of a geometry over a piece of time: a link, or its own path in the world.
@@ -95,6 +97,13 @@ struct PairPaths {
   GeometryPath A;
   GeometryPath B;
   std::optional<RobotLink> frame;  ///< None: the world.
+
+  /// [m]  Bound of how much closer tracking errors may bring the two geometries, in a window.
+  ///
+  /// At an instant it depends on the configuration alone. Over a window it is at least as large as
+  /// at each of its instants.
+  [[nodiscard]] double tracking_bound(const BoundedGeometry& a, const BoundedGeometry& b,
+                                      const TimeWindow& window, LinkScratch& scratch) const;
 };
 
 /// A robot scene laid out in time. Refers to the scene, which must not change meanwhile.

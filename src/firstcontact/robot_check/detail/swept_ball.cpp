@@ -19,7 +19,7 @@ SweptBall swept_ball(const RoundedBox& ball, const GeometryPath& path, const Tim
   const double error = pose.position_error + pose.rotation_error * ball.centre.norm() +
                        0x1p-48 * swept.centre.norm();
   swept.radius = (ball.radius + sweep + error) * kUp;
-  swept.tracking_error = path.tracking_bound(ball, window);
+  swept.tracking_error = path.tracking_bound(ball, window, scratch);
   return swept;
 }
 

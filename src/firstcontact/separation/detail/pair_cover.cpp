@@ -143,11 +143,11 @@ class Cover {
     const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
     const double tracking = s.A.tracking() + s.B.tracking();
     const double rounding = s.A.error() + s.B.error() + kPositionRounding * size;
-    s.unit_error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
+    s.unit_error = rounding + A_.jump + B_.jump + (options_.tracked > 0.0 ? 0.0 : kUp * tracking);
     // Axes of bodies are unit vectors up to the errors of their turns.
     s.error = s.unit_error + 2.0 * turn_errors * size;
     s.drift = s.A.drift(half) + s.B.drift(half);
-    s.promised = options_.promised + (options_.nominal ? tracking : 0.0);
+    s.promised = options_.promised + options_.tracked * tracking;
     s.enough = enough(s);
     s.can_split = window.depth < kDeepest && window.from < time && time < window.to;
     s.refines = options_.finds_least && s.can_split && window.depth < kFineDepth;

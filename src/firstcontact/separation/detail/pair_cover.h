@@ -50,10 +50,11 @@ struct CoverOptions {
   /// Begin of the time of the proof, as far as there are pieces; equal to `to` for one instant.
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
-  /// Whether the distance is one of nominal motions.
+  /// [-]  How often the bound of tracking errors is added to the promise.
   ///
-  /// Then tracking errors count for the promise, else as errors.
-  bool nominal = false;
+  /// The distance is then that of the nominal motions. At 0 the errors count as errors, and the
+  /// distance is that of all motions within them.
+  double tracked = 0.0;
   std::size_t work = 0;  ///< Number of tests of two boxes or two triangles after which it gives up.
   std::stop_token stop = {};  ///< Ends it as spent work does.
 };

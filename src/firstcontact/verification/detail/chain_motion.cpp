@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace firstcontact::detail {
@@ -10,11 +11,18 @@ namespace {
 /// [-]  Factor that covers the roundings of a sum of a few products that are not negative.
 constexpr double kRoundedUp = 1.0 + 0x1p-48;
 
+/// [-]  Bound of the chord of a turn on the unit circle.
+double chord_of(double angle) {
+  constexpr double kHalfTurn = 3.14;
+  return angle < kHalfTurn ? (Interval(2.0) * sin(Interval(0.5) * Interval(angle))).upper() : 2.0;
+}
+
 /// A frame of a chain, and bounds of its motion.
 class ChainFrame {
   /// A joint that was passed, with its rates.
   struct Passed {
-    IntervalVector3 place;  // Place of its axis.
+    IntervalVector3 place;                // Place of its axis.
+    std::optional<IntervalVector3> axis;  // Axis of a turn, unit; else it may turn about any.
     double turn_rate = 0.0;
     double slide_rate = 0.0;
     TrackingError error;
@@ -63,6 +71,7 @@ class ChainFrame {
       passed.slide_rate += kRoundedUp * q.rate_size;
     }
     passed.place = X_.position;
+    passed.axis = X_.rotation * joint.axis;
     if (joint.angle != nullptr) {
       const CoordinateWindow q = joint.angle->around(time_, half_);
       spin_ = spin_ + q.rate * (X_.rotation * joint.axis);
@@ -115,19 +124,25 @@ class ChainFrame {
 
   /// Adds the bounds of tracking errors.
   ///
-  /// Derivation: the last joint errs first, then the one before it, and so on. No error moves the
-  /// axes of the joints that have not erred yet. An error e of a turn moves a point at a distance d
-  /// from the axis by at most e d. By then d has grown by the earlier errors of the point.
+  /// Derivation: let e bound how far a point is off, as seen from the child of a joint. An error of
+  /// the turn moves the nominal place of the point by at most c d. c is the chord 2 sin(error / 2)
+  /// and d the distance of the nominal place from the axis. What the point is off besides turns
+  /// with the child and keeps its length. So as seen from the parent it is off by e + c d and the
+  /// error of the slide. A point at a distance r from the pivot has a d that is larger by r at
+  /// most.
   void add_tracking(BodyInstant& now) const {
     double speed = 0.0;  // Speed of the pivot, as seen from the child of the joint.
     for (std::size_t k = passed_.size(); k-- > 0;) {
       const Passed& joint = passed_[k];
-      const double lever = kRoundedUp * (norm(X_.position - joint.place).upper() + half_ * speed);
-      now.tracking = kRoundedUp * (now.tracking + joint.error.angle * (lever + now.tracking) +
+      const IntervalVector3 arm = X_.position - joint.place;
+      const double way = kRoundedUp * half_ * speed;
+      const double lever = norm(arm).upper() + way;
+      const double from_axis = joint.axis ? norm(cross(arm, *joint.axis)).upper() + way : lever;
+      const double chord = chord_of(joint.error.angle);
+      now.tracking = kRoundedUp * (now.tracking + kRoundedUp * kRoundedUp * chord * from_axis +
                                    joint.error.distance);
-      now.turn_tracking =
-          kRoundedUp * (now.turn_tracking + joint.error.angle * (1.0 + now.turn_tracking));
-      speed = kRoundedUp * (speed + joint.turn_rate * lever + joint.slide_rate);
+      now.turn_tracking = kRoundedUp * (now.turn_tracking + chord);
+      speed = kRoundedUp * (speed + kRoundedUp * joint.turn_rate * lever + joint.slide_rate);
     }
   }
 

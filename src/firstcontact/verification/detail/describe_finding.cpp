@@ -21,6 +21,8 @@ std::string describe(const ProofFinding& finding, const Scene& scene) {
       return "It could not be proven that none of " + names + " is inside of the other.";
     case ProofReason::apart:
       return names + " are in contact by the result, but are farther apart than it allows.";
+    case ProofReason::perhaps_errors:
+      return "It is open whether the tracking errors let " + names + " be in contact.";
     case ProofReason::too_close:
       return "Rounding leaves open whether " + names + " keep to what the result claims.";
     case ProofReason::work:

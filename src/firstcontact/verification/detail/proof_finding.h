@@ -15,8 +15,9 @@ enum class ProofReason {
   closer,  ///< Closer than the margin.
   inside,  ///< One begins inside of the other.
   perhaps_inside,
-  apart,      ///< At a contact: farther apart than the margin and the tolerance.
-  too_close,  ///< Too close for the arithmetic to distinguish from apart, or from a contact.
+  apart,           ///< At a contact: farther apart than the margin and the tolerance.
+  perhaps_errors,  ///< At a contact: tracking errors may or may not explain it.
+  too_close,       ///< Too close for the arithmetic to distinguish from apart, or from a contact.
   work,
   stopped,
 };

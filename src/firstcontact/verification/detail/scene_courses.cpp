@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -50,6 +51,18 @@ CoveredMotions shared(std::vector<RigidMotion> pieces) {
     motions.push_back(std::make_shared<const RigidMotion>(std::move(piece)));
   }
   return motions;
+}
+
+/// [m]  Bounds how far the triangles reach from a point. It is less than the reach of their box,
+/// and tracking errors count by it.
+double reach_of(const Mesh& mesh, const Eigen::Vector3d& p) {
+  double reach = 0.0;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      reach = std::max(reach, (mesh.vertices[vertex] - p).norm());
+    }
+  }
+  return kLonger * reach;
 }
 
 /// The pose that loading froze when a body was taken up or put down at a time.
@@ -139,8 +152,9 @@ void SceneCourses::add_geometry(std::size_t member, const Shape& shape, const Po
     box.extend(vertex);
   }
   const Eigen::Vector3d p_GP = 0.5 * box.min() + 0.5 * box.max();
-  geometries_.push_back({member, shape, p_GP,
-                         std::make_shared<const BoxTree>(build_box_tree(shape, p_GP)),
+  BoxTree tree = build_box_tree(shape, p_GP);
+  tree.nodes[0].reach = std::min(tree.nodes[0].reach, reach_of(mesh, p_GP));
+  geometries_.push_back({member, shape, p_GP, std::make_shared<const BoxTree>(std::move(tree)),
                          exact_transform(X_MG) * at_point(p_GP), round_set_of(shape, p_GP)});
 }
 

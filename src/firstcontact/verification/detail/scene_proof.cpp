@@ -37,6 +37,9 @@ constexpr double kLongestMoment = 0x1p-30;
 /// Time behind the one at which a body is taken up or put down [-].
 constexpr double kBehind = 0x1p-40;
 
+/// [-]  The bounds of tracking errors by which a contact is refuted. Other bounds may be larger.
+constexpr double kRefutingShare = 1.125;
+
 std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
   std::vector<const CoveredMotion*> result;
   result.reserve(motions.size());
@@ -409,21 +412,27 @@ ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeom
   finding.reason = nested ? ProofReason::apart : ProofReason::perhaps_inside;
   // Also for the motions from then on, in case one is taken up or put down.
   for (const TimeSpan& window : {TimeSpan{t, t}, TimeSpan{t, std::min(1.0, t + kBehind)}}) {
-    const CoverResult found = cover(A, B, window,
-                                    {.promise = Promise::exceeded,
-                                     .promised = reach,
-                                     .finds_least = false,
-                                     .from = t,
-                                     .to = t,
-                                     .nominal = true,
-                                     .work = options_.work,
-                                     .stop = options_.stop});
+    CoverOptions asked{.promise = Promise::exceeded,
+                       .promised = reach,
+                       .finds_least = false,
+                       .from = t,
+                       .to = t,
+                       .tracked = 1.0,
+                       .work = options_.work,
+                       .stop = options_.stop};
+    const CoverResult found = cover(A, B, window, asked);
     if (found.outcome == CoverOutcome::closer) {
       return {.members = {A.member, B.member}, .when = {t, t}, .distance = found.seen};
     }
     if (found.outcome == CoverOutcome::not_proven) {
       finding.verdict = ProofVerdict::not_proven;
       finding.reason = found.ended ? ProofReason::work : ProofReason::too_close;
+    } else if (courses_.has_tracking_errors()) {
+      asked.tracked = kRefutingShare;
+      if (cover(A, B, window, asked).outcome != CoverOutcome::proven) {
+        finding.verdict = ProofVerdict::not_proven;
+        finding.reason = ProofReason::perhaps_errors;
+      }
     }
   }
   return finding;

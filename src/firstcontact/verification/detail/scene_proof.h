@@ -67,12 +67,12 @@ class SceneProof {
   [[nodiscard]] ProofFinding prove_free(const FreeClaim& claim) const;
 
   /// Proves that two members are no farther apart than margin + tolerance at a time, for their
-  /// nominal motions.
+  /// nominal motions. The bound of their tracking errors is added to the margin.
   [[nodiscard]] ProofFinding prove_contact(const BodyPair& members, double t,
                                            double tolerance) const;
 
   /// Proves that two members are no farther apart than a distance at a time, for their nominal
-  /// motions.
+  /// motions. The bound of their tracking errors is added to the distance.
   [[nodiscard]] ProofFinding prove_within(const BodyPair& members, double t, double distance) const;
 
  private:
