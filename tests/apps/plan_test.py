@@ -455,6 +455,35 @@ class Plan(tool_test.ToolTest):
                 self.file(name, text)
                 self.assertEqual(self.run_tool("verify", path).returncode, 0)
 
+    def test_files_of_its_path_are_found_from_any_folder(self):
+        """As robots are: from the current folder, then from the folder of the path and those above it."""
+        (self.folder / "in").mkdir()
+        (self.folder / "else").mkdir()
+        self.file("in/gantry.urdf", URDF)
+        question = {"robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1, "z": 0}}]}
+        asked = scene({"goal": {"x": 1, "z": 0}}, [WALL], **question)
+        wall = {"bodies": [{**WALL, "pose": {"position": [0, 0, 0.1]}}]}
+        self.file("in/scene.json", asked)
+        self.assertEqual(self.plan("in/scene.json", "-o", "in/path.json").returncode, 0)
+        places = [(".", "in/path.json"), ("in", "path.json"), ("else", "../in/path.json")]
+        for folder, path in places:
+            result = self.run_tool_in(folder, "verify", path)
+            self.assertEqual(result.returncode, 0, result)
+            self.assertNotIn("is not found", result.stdout)
+        self.file("in/scene.json", {**asked, **wall})
+        for folder, path in places:
+            for command in (("verify", path), ("retime", path, "--max-acceleration", "3", "-o", "out.csv")):
+                result = self.run_tool_in(folder, *command)
+                self.assertEqual(result.returncode, 2, (folder, result))
+                self.assertIn("in/scene.json is not what it was", result.stderr)
+        # A missing scene file is named; of the robot, whose file was compared, there is no word.
+        (self.folder / "in/scene.json").unlink()
+        for folder, path in places:
+            result = self.run_tool_in(folder, "verify", path)
+            self.assertEqual(result.returncode, 0, result)
+            self.assertIn("in/scene.json is not found", result.stdout)
+            self.assertNotIn("gantry.urdf is not found", result.stdout)
+
     def test_its_path_is_compared_with_its_scene(self):
         tetrahedron = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 {}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
         self.file("peg.obj", tetrahedron.format(0.1))

@@ -128,7 +128,52 @@ class Retime(tool_test.ToolTest):
         self.file("arm.urdf", URDF.replace("1 0.1 0.1", "1 0.2 0.1"))
         self.assert_refused(
             self.run_tool("retime", path, "--limits", self.limits, "-o", "out.csv"),
-            f"{path}: a file of the scene has changed since the path was planned; plan it again")
+            f"{path}: arm.urdf is not what it was when the path was planned; restore the file, or plan again")
+
+    def test_refuses_a_path_that_is_not_one_of_its_scene(self):
+        path = self.path_file()
+        arguments = ("--limits", self.limits, "-o", "out.csv")
+        scene = (self.folder / "scene.json").read_text()
+        self.file("scene.json", scene.replace("0.07", "0.08"))
+        self.assert_refused(
+            self.run_tool("retime", path, *arguments),
+            f"{path}: scene.json is not what it was when the path was planned; restore the file, or plan again")
+        # A missing scene file is a warning, as in verify.
+        (self.folder / "scene.json").unlink()
+        result = self.run_tool("retime", path, *arguments)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("scene.json is not found", result.stdout)
+        planned = json.loads((self.folder / path).read_text())
+        planned["waypoints"][0] = [0.125, 0]
+        self.file("moved.json", planned)
+        for command in (("verify", "moved.json"), ("retime", "moved.json", *arguments)):
+            result = self.run_tool(*command)
+            self.assertNotEqual(result.returncode, 0, result)
+            self.assertIn('does not begin where its scene has joint "elbow"', (result.stdout + result.stderr))
+        self.assertEqual(self.run_tool("retime", "moved.json", *arguments).returncode, 2)
+
+    def test_proves_what_plan_has_proven_with_tracking_errors(self):
+        """The windows of time of the trajectory are others than those of the edges."""
+        links = "".join(f'<link name="l{k}"><collision><origin xyz="0.15 0 0"/><geometry><sphere radius="0.04"/>'
+                        "</geometry></collision></link>" for k in range(1, 6))
+        joints = "".join(
+            f'<joint name="j{k}" type="revolute"><parent link="{"b" if k == 0 else f"l{k - 1}"}"/>'
+            f'<child link="l{k}"/><origin xyz="{0.2 if k else 0} 0 0"/><axis xyz="{"0 1 0" if k % 2 else "0 0 1"}"/>'
+            '<limit lower="-3" upper="3" velocity="1" effort="1"/></joint>' for k in range(6))
+        self.file("six.urdf", f'<robot name="six"><link name="b"/><link name="l0"/>{links}{joints}</robot>')
+        start = dict(zip(["j0", "j1", "j2", "j3", "j4", "j5"], [-1, 0.1, 0.2, 0, 0.3, 0]))
+        goal = dict(zip(start, [1, 0, -0.2, 0.3, 0, 0.2]))
+        for seed in (2, 7, 11):
+            for error in (0.002, 0.005, 0.02):
+                self.file("scene.json", {
+                    "firstcontact": 1,
+                    "bodies": [{"name": "ball", "shape": {"sphere": {"radius": 0.3}}, "pose": {"position": [0.8, 0, 0]}}],
+                    "robots": [{"name": "g", "urdf": "six.urdf", "state": start, "tracking_error": error}],
+                    "plan": {"goal": goal, "seed": seed}})
+                for command in (("plan", "scene.json", "-o", "path.json"), ("verify", "path.json"),
+                                ("retime", "path.json", "--max-acceleration", "3", "-o", "out.csv")):
+                    result = self.run_tool(*command)
+                    self.assertEqual(result.returncode, 0, (seed, error, result))
 
     def test_says_what_is_wrong(self):
         def way(text: str) -> str:

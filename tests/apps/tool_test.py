@@ -49,6 +49,11 @@ class ToolTest(unittest.TestCase):
         return subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True,
                               timeout=120, check=False)
 
+    def run_tool_in(self, folder: str, *arguments: str) -> subprocess.CompletedProcess:
+        """In a folder below that of the test."""
+        return subprocess.run([TOOL, *arguments], cwd=self.folder / folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+
     def run_in_shell(self, command: str) -> subprocess.CompletedProcess:
         """With redirections, which a shell does."""
         return subprocess.run(["sh", "-c", f'"$0" {command}', TOOL], cwd=self.folder, capture_output=True, text=True,

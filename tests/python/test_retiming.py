@@ -126,7 +126,7 @@ def test_is_the_trajectory_of_the_tool(arm, tmp_path, tool):
         assert answer.yaml == out.read_text()
         assert answer.trajectory.joint_names == ("elbow", "shoulder")
     (tmp_path / "arm.urdf").write_text(URDF.replace("1 0.1 0.1", "1 0.2 0.1"))
-    with pytest.raises(ValueError, match="has changed since the path was planned"):
+    with pytest.raises(ValueError, match="is not what it was when the path was planned"):
         fc.retime(path, limits=LIMITS)
 
 

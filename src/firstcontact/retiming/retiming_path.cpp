@@ -13,6 +13,7 @@
 
 #include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -33,6 +34,28 @@ std::size_t robot_named(const Scene& scene, const std::string& name) {
     }
   }
   throw std::invalid_argument("expected a robot of the scene, got " + detail::in_quotes(name));
+}
+
+/// [rad or m]  The place of a coordinate at rest in the scene.
+double position_in_scene(const SceneRobot& robot, const std::string& name) {
+  const JointCoordinate which = find_coordinate(robot.model, name);
+  const auto found = robot.state.find(coordinate_name(robot.model, which));
+  return found != robot.state.end()
+             ? found->second
+             : default_position(robot.model.joints()[which.joint], which.index);
+}
+
+/// Requires that a planned path begins where its scene has the robots.
+void require_start(const RetimingPath& path) {
+  for (std::size_t k = 0; k < path.path.joint_names.size(); ++k) {
+    const std::string& joint = path.path.joint_names[k];
+    const auto [which, name] = detail::split_robot_name(path.scene, path.robots, joint);
+    if (path.path.waypoints.front()[k] !=
+        position_in_scene(path.scene.robots[path.robots[which]], name)) {
+      throw std::invalid_argument("the path does not begin where its scene has joint " +
+                                  detail::in_quotes(joint) + "; plan it again");
+    }
+  }
 }
 
 /// Refuses a robot's name for a path that moves others, or more.
@@ -107,6 +130,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
   result.scene = std::move(path.scene);
   result.contact_pairs = std::move(path.contact_pairs);
   result.input_digest = std::move(path.input_digest);
+  result.sources = std::move(path.sources);
   std::vector<bool> turns_short;
   for (const Turning turning : path.turnings) {
     turns_short.push_back(turning == Turning::shortest);
@@ -117,6 +141,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
       result.robots.push_back(robot_named(result.scene, robot));
     }
     require_path(result.path);
+    require_start(result);
   } catch (const std::invalid_argument& error) {
     throw ParseError(name, error.what());
   }
@@ -178,11 +203,10 @@ RetimingPath parse_path_or_scene(std::string_view text, const std::filesystem::p
 }
 
 LoadedRetimingScene load_retiming_scene(const RetimingPath& input, ShapeCache& cache) {
-  LoadedScene loaded = load_scene(input.scene, cache);
-  if (!input.input_digest.empty() && loaded.input_digest != input.input_digest) {
-    throw std::invalid_argument(
-        "a file of the scene has changed since the path was planned; plan it again");
-  }
+  LoadedScene loaded =
+      input.input_digest.empty()
+          ? load_scene(input.scene, cache)
+          : load_planned_scene(input.scene, {input.sources, input.input_digest}, cache);
   RetimingScene where{.scene = *loaded.robots, .robots = input.robots, .holds = {}};
   for (const NamedContactPair& pair : input.contact_pairs) {
     where.holds.push_back(hold_of(pair, input, where.scene));

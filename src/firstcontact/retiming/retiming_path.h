@@ -27,15 +27,17 @@ struct RetimingPath {
   WaypointPath path = {};
   /// Pairs that are in contact at an end of the path, and the distances that they are held to.
   std::vector<NamedContactPair> contact_pairs = {};
-  std::string input_digest = {};  ///< Digest of all files that the path was planned with; may be
-                                  ///< empty.
-  bool is_approximate = false;    ///< It ends before its goal.
+  std::string input_digest = {};  ///< Digest of all files that the path was planned with; empty
+                                  ///< where it was not planned.
+  std::vector<PathSource> sources = {};  ///< The files that it was planned from.
+  bool is_approximate = false;           ///< It ends before its goal.
 };
 
 /// Reads the part of a path file that retiming needs from its text.
 ///
 /// @param name  the file of the text, for errors
-/// @throws ParseError  where it is no path, or one of a body
+/// @throws ParseError  where it is no path, or one of a body, or does not begin where its scene has
+///                     the robots
 [[nodiscard]] FIRSTCONTACT_API RetimingPath parse_retiming_path(std::string_view text,
                                                                 const std::string& name,
                                                                 const ReadingOptions& options = {});

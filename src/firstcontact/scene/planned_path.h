@@ -35,7 +35,7 @@ struct NamedContactPair {
 
 /// A file from which the scene of a path was made, such as a planning scene or a mesh.
 struct PathSource {
-  std::filesystem::path file;  ///< As it was opened.
+  std::filesystem::path file;  ///< As it was opened, or is found beside the path that was read.
   std::string digest;          ///< SHA-256, in hexadecimal.
 };
 

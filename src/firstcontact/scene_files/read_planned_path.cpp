@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -18,10 +20,12 @@
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/file_report.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
+#include <firstcontact/text/read_path.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
@@ -39,7 +43,9 @@ constexpr std::size_t kMostCounted = std::size_t{1} << 53;
 
 class PathReader {
  public:
-  explicit PathReader(const JsonReader& read) : read_(read) {}
+  /// @param folders  in which the files of the path are looked for
+  PathReader(const JsonReader& read, detail::SceneFolders folders)
+      : read_(read), folders_(std::move(folders)) {}
 
   void take(const JsonValue& root, PlannedPath& path) const {
     (void)read_.object(root, {{"firstcontact_path",
@@ -105,8 +111,8 @@ class PathReader {
     for (const JsonValue& source :
          sources == nullptr ? JsonArray() : read_.array(*sources, "files")) {
       (void)read_.object(source, {{"file", "sha256"}});
-      path.sources.push_back(
-          {string_of(read_.member(source, "file")), string_of(read_.member(source, "sha256"))});
+      path.sources.push_back({detail::found_file(string_of(read_.member(source, "file")), folders_),
+                              string_of(read_.member(source, "sha256"))});
     }
   }
 
@@ -339,6 +345,7 @@ class PathReader {
   }
 
   const JsonReader& read_;
+  detail::SceneFolders folders_;
 };
 
 void require_format(const JsonValue& root, const JsonReader& read) {
@@ -350,23 +357,57 @@ void require_format(const JsonValue& root, const JsonReader& read) {
   }
 }
 
-/// Requires that the files are those from which the path was planned. The scene stands in
-/// the path, so a missing file is only a warning.
-std::vector<std::string> check_sources(const PlannedPath& path) {
-  std::vector<std::string> warnings;
-  for (const PathSource& source : path.sources) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(source.file, error)) {
-      warnings.push_back(source.file.string() +
-                         " is not found, so it is not known whether it has changed");
-    } else if (detail::sha256(detail::read_file(source.file, "a file of the path")) !=
-               source.digest) {
+bool is_there(const std::filesystem::path& file) {
+  std::error_code error;
+  return file.native().find('\0') == std::string::npos &&
+         std::filesystem::is_regular_file(file, error);
+}
+
+std::string digest_of(const std::filesystem::path& file) {
+  return detail::sha256(detail::read_file(file, "a file of the path"));
+}
+
+/// Requires that the files that are found are those from which the path was planned.
+void require_same(std::span<const PathSource> sources) {
+  for (const PathSource& source : sources) {
+    if (is_there(source.file) && digest_of(source.file) != source.digest) {
       throw std::invalid_argument(source.file.string() +
                                   " is not what it was when the path was planned; restore the "
                                   "file, or plan again");
     }
   }
-  return warnings;
+}
+
+/// The digests of the files that a scene has loaded.
+std::set<std::string> digests_of(const LoadedScene& loaded) {
+  std::set<std::string> digests;
+  const auto add = [&](const std::filesystem::path& file) {
+    if (is_there(file)) {
+      digests.insert(digest_of(file));
+    }
+  };
+  for (const FileReport& report : loaded.files) {
+    add(report.path);
+    std::ranges::for_each(report.also_read, add);
+  }
+  return digests;
+}
+
+/// Warns of files that are not found. The scene stands in the path, so nothing needs them.
+void warn_of_missing(std::span<const PathSource> sources, LoadedScene& loaded) {
+  std::optional<std::set<std::string>> known;  // Files that the input digest has compared.
+  for (const PathSource& source : sources) {
+    if (is_there(source.file)) {
+      continue;
+    }
+    if (!known) {
+      known = digests_of(loaded);
+    }
+    if (!known->contains(source.digest)) {
+      loaded.warnings.push_back(source.file.string() +
+                                " is not found, so it is not known whether it has changed");
+    }
+  }
 }
 
 }  // namespace
@@ -380,7 +421,7 @@ PlannedPath parse_planned_path(std::string_view text, const std::filesystem::pat
   require_format(root, read);
   PlannedPath path;
   path.scene = parse_embedded_scene(text, name, 1, options);
-  PathReader(read).take(root, path);
+  PathReader(read, detail::folders_around(source)).take(root, path);
   return path;
 }
 
@@ -389,14 +430,18 @@ PlannedPath read_planned_path(const std::filesystem::path& file, const ReadingOp
 }
 
 LoadedScene load_scene_of(const PlannedPath& path, ShapeCache& cache) {
-  const std::vector<std::string> warnings = check_sources(path);
-  LoadedScene loaded = load_scene(path.scene, cache);
-  if (loaded.input_digest != path.input_digest) {
+  return load_planned_scene(path.scene, {path.sources, path.input_digest}, cache);
+}
+
+LoadedScene load_planned_scene(const Scene& scene, const PathFiles& files, ShapeCache& cache) {
+  require_same(files.sources);
+  LoadedScene loaded = load_scene(scene, cache);
+  if (loaded.input_digest != files.input_digest) {
     throw std::invalid_argument(
         "a mesh or robot file of its scene is not what it was when the path was planned; restore "
         "the file, or plan again");
   }
-  loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
+  warn_of_missing(files.sources, loaded);
   return loaded;
 }
 

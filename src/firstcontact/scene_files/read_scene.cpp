@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -349,18 +348,6 @@ Scene parse_in(const SceneFolders& folders, std::string_view text, const std::st
   return scene;
 }
 
-/// The folder of a file, and all above it.
-std::vector<std::filesystem::path> folders_above(const std::string& file) {
-  std::vector<std::filesystem::path> folders;
-  std::error_code error;
-  std::filesystem::path folder = std::filesystem::absolute(file, error).parent_path();
-  while (!error && !folder.empty() && (folders.empty() || folder != folders.back())) {
-    folders.push_back(folder);
-    folder = folder.parent_path();
-  }
-  return folders;
-}
-
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& source,
@@ -378,8 +365,7 @@ Scene parse_embedded_scene(std::string_view text, const std::string& name, std::
   }
   const std::string own = "scene";
   try {
-    return parse_in({.scene = {}, .others = folders_above(name)}, detail::write_json(*scene), own,
-                    1, options);
+    return parse_in(detail::folders_around(name), detail::write_json(*scene), own, 1, options);
   } catch (const ParseError& error) {
     if (error.path() != own) {
       throw;  // A file that the scene names is wrong.

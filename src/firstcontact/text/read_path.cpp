@@ -56,6 +56,21 @@ std::filesystem::path find_in_packages(const JsonValue& value, const std::string
 
 }  // namespace
 
+SceneFolders folders_around(const std::filesystem::path& file) {
+  SceneFolders folders;
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::absolute(file, error).parent_path();
+  while (!error && !folder.empty() && (folders.others.empty() || folder != folders.others.back())) {
+    folders.others.push_back(folder);
+    folder = folder.parent_path();
+  }
+  return folders;
+}
+
+std::filesystem::path found_file(const std::string& name, const SceneFolders& folders) {
+  return opened(name, folders, is_file);
+}
+
 std::vector<std::filesystem::path> read_package_roots(const JsonValue& value,
                                                       const SceneFolders& folders,
                                                       const JsonReader& read) {
@@ -72,7 +87,7 @@ std::filesystem::path read_path(const JsonValue& value, const std::string& what,
   if (name.starts_with(kPackage)) {
     return find_in_packages(value, name, folders, read);
   }
-  std::filesystem::path path = opened(name, folders, is_file);
+  std::filesystem::path path = found_file(name, folders);
   if (!is_file(path)) {
     read.fail(value, "expected " + what + ", found none at " + write_json(path.string()) +
                          (folders.others.empty() ? "" : ", nor from a folder above this file"));

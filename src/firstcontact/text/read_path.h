@@ -19,6 +19,15 @@ struct SceneFolders {
   std::vector<std::filesystem::path> package_roots = {};  ///< As opened; for "package://name/...".
 };
 
+/// The folders for a text that may have been moved with its files: the current folder, then that of
+/// the file and all above it.
+[[nodiscard]] SceneFolders folders_around(const std::filesystem::path& file);
+
+/// The path of a file by its name: from the scene's folder, or from the first other folder that has
+/// it. Where none has it, it is that from the scene's folder.
+[[nodiscard]] std::filesystem::path found_file(const std::string& name,
+                                               const SceneFolders& folders);
+
 /// Reads an array of folders, as they are to be opened.
 ///
 /// @param folders  folders in which relative paths begin
