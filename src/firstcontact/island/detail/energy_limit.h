@@ -37,8 +37,8 @@ struct IslandState;
 /// Without moving bodies around, rest meets all contacts, so the projection on them makes no
 /// velocity longer in the kinetic metric. A scripted body adds at most its own speed twice, and so
 /// does a belt. A contact that turns may need as much as a belt of its change of velocity: its
-/// velocities at the end point along its circle there. What such contacts add over a plan,
-/// contacts_add_no_energy() limits. For a problem without solution, as for a crushed body, the solver's answer is
+/// velocities at the end point along its circle there. The planner limits what such contacts add
+/// over a plan. For a problem without solution, as for a crushed body, the solver's answer is
 /// arbitrary. It is shortened to the energy before, or to that of moving with the script. An
 /// isolated island keeps its momenta. Motors add what they want, as long as there is a solution.
 /// Where motors without bound yield there is none. All bodies are then at most as fast as these

@@ -200,8 +200,8 @@ class Island {
 
   /// Moves all bodies to the first contact that is no mere constraint, or to the end of the plan.
   /// Returns the fraction of the span; nothing if it was stopped.
-  std::optional<double> advance() {
-    IslandPlanner planner(state_, planned_);
+  std::optional<double> advance(bool symmetric = false) {
+    IslandPlanner planner(state_, planned_, symmetric);
     ImpactSearch search(state_, planned_, workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
@@ -209,6 +209,9 @@ class Island {
           planned_ > kLeastShareOfTied * state_.start.h) {
         planned_ *= 0.5;
         return advance();
+      }
+      if (!plan.keeps_energy && !symmetric) {
+        return advance(true);
       }
       if (plan.is_refused) {
         is_stuck_ = true;

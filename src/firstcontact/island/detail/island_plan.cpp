@@ -54,18 +54,19 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   return flight;
 }
 
-IslandPlanner::IslandPlanner(IslandState& state, double span)
+IslandPlanner::IslandPlanner(IslandState& state, double span, bool symmetric)
     : state_(state),
       span_(span),
       bodies_(state.problem_bodies()),
       ties_(state, span),
-      flight_(free_flight()) {
+      flight_(free_flight()),
+      symmetric_(symmetric || is_heap(state, state.touches())) {
   for (const auto& [pair, manifold] : state_.manifolds) {
     state_.add_others(pair, bodies_);
   }
   add_tied_bodies(state_, bodies_);
   set_bodies();
-  by_end_ = is_heap(state_, state_.touches());
+  by_end_ = symmetric_;
   for (const auto& [pair, manifold] : state_.manifolds) {
     const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {
@@ -74,9 +75,9 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
         // In a heap each touch stops where it is, as solutions are too rough for the nearest gap.
         const double way =
-            state_.model.distances.way_to_rest(touch.gap, by_end_ ? touch.gap : lowest);
+            state_.model.distances.way_to_rest(touch.gap, symmetric_ ? touch.gap : lowest);
         acting_.push_back(acting(touch, -way / span_));
-        append(touch, by_end_ ? along_way(acting_.back()) : by_mean(acting_.back()));
+        append(touch, symmetric_ ? along_way(acting_.back()) : by_mean(acting_.back()));
       }
     }
   }
@@ -301,7 +302,7 @@ Plan IslandPlanner::plan_of_bodies(const std::vector<bool>& by_end) {
             .is_limited = last_->is_limited,
             .is_solved = last_->slips || is_solved(state_, solution)};
   made.at_end.resize(state_.size());
-  const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&
+  const bool by_chords = by_end_ && !symmetric_ && state_.robots.empty() && ties_.empty() &&
                          !is_heap(state_, problem_.contacts.size()) && any_turns();
   const std::vector<ContactBody> after = by_chords ? along_chords().bodies : solution.bodies;
   const std::vector<std::optional<std::size_t>> carriers = this->carriers();

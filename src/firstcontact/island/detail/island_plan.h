@@ -79,7 +79,8 @@ struct Plan {
   /// Whether forces of ties were found that keep the energy which they do not take. A shorter plan
   /// may have such forces.
   bool finds_ties = true;
-  bool keeps_energy = true;  ///< Whether contacts add no energy; in a shorter plan they add less.
+  /// Whether contacts add no energy; in a shorter plan they add less, in a symmetric one none.
+  bool keeps_energy = true;
   /// Whether it may not be followed: joints are apart where it ends, or a motion is not finite.
   bool is_refused = false;
 
@@ -96,8 +97,10 @@ class IslandPlanner {
  public:
   /// Starts with the present touches, and their impulses for a whole step.
   ///
-  /// @param span  [s]
-  IslandPlanner(IslandState& state, double span);
+  /// @param span       [s]
+  /// @param symmetric  whether contacts hold velocities in the place where their impulses act, as
+  ///                   in heaps: of first order, but no contact adds energy
+  IslandPlanner(IslandState& state, double span, bool symmetric);
 
   /// Starts from the impulses of the plan before.
   [[nodiscard]] Plan plan();
@@ -146,6 +149,10 @@ class IslandPlanner {
 
   [[nodiscard]] bool find_solution();
   [[nodiscard]] Plan plan_of_bodies(const std::vector<bool>& by_end);
+  [[nodiscard]] double work_of_contacts() const;
+  [[nodiscard]] bool contacts_do_no_work() const;
+  [[nodiscard]] std::vector<ContactBody> before_contacts() const;
+  [[nodiscard]] Eigen::Vector2d mean_belt(std::size_t k) const;
   void settle(const std::vector<OuterImpulse>& outer, Plan& made);
   [[nodiscard]] FreeFlight free_flight() const;
   [[nodiscard]] bool acts(std::size_t k) const;
@@ -241,6 +248,7 @@ class IslandPlanner {
   ProblemBodies bodies_;
   PlanTies ties_;
   FreeFlight flight_;
+  bool symmetric_;                             // Whether contacts hold where they act.
   ContactProblem problem_;                     // Its guesses are the impulses of the last plan.
   std::vector<ManifoldPoint> touches_;         // The touch of each contact of the problem.
   std::vector<ActingContact> acting_;          // For the present touches.

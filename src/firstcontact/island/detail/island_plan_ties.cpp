@@ -274,7 +274,8 @@ void IslandPlanner::settle(const std::vector<OuterImpulse>& outer, Plan& made) {
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, share_of_drift(), made.moves);
   made.is_refused = leads_nowhere(made);
-  made.keeps_energy = made.is_refused || contacts_add_no_energy(state_, made, problem_, span_);
+  made.keeps_energy = made.is_refused || (contacts_do_no_work() &&
+                                          contacts_add_no_energy(state_, made, problem_, span_));
   if (!state_.ties.empty()) {
     made.is_refused = made.is_refused || tears_ties(state_, made, span_);
     made.finds_ties =

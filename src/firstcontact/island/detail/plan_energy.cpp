@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/island/detail/energy_limit.h>
 #include <firstcontact/island/detail/island_plan.h>
 #include <firstcontact/island/detail/island_state.h>
 #include <firstcontact/island/detail/island_ties.h>
@@ -109,6 +111,76 @@ bool contacts_add_no_energy(const IslandState& state, const Plan& plan,
   const double gain = end.kinetic + end.potential - now.kinetic - now.potential;
   const double lift = static_cast<double>(state.size()) * now.slack;
   return gain <= span / state.start.h * kEnergyOfTurning * now.kinetic + lift;
+}
+
+/// The velocities before the plan, in the axes of those of the solution. Where a body does not
+/// spin, they are those of its free flight, without what its forces add.
+std::vector<ContactBody> IslandPlanner::before_contacts() const {
+  std::vector<ContactBody> before = bodies_.bodies();
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (!is_link_body(k) && !spins(k)) {
+      before[k].w =
+          flight_.at_end[k].w - span_ * (before[k].inverse_inertia.rotation * flight_.torques[k]);
+    }
+  }
+  return before;
+}
+
+/// [m/s]  The mean over the plan of the velocity that belts give a contact.
+Eigen::Vector2d IslandPlanner::mean_belt(std::size_t k) const {
+  if (!acts(k)) {
+    return problem_.contacts[k].sticking_velocity;
+  }
+  return acting_[k].now.sticking_velocity + 0.5 * acting_[k].change_of_belt;
+}
+
+/// [J]  The energy that contacts add to what forces, ties, drives, belts and scripts add. What
+/// friction takes does not count, nor does what contacts give where links drift together.
+///
+/// Derivation: impulses P change the kinetic energy by the sum of P u. Here u is the mean of the
+/// velocities before and after all impulses, at the place where P acts. That is exact for constant
+/// masses, whatever else acts.
+double IslandPlanner::work_of_contacts() const {
+  const ContactSolution& solution = last_->velocities;
+  const std::vector<ContactBody> before = before_contacts();
+  double of_normals = 0.0;
+  double of_friction = 0.0;
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const Vector3d& impulse = solution.impulses[k];
+    const Vector3d mean =
+        0.5 * (relative_velocity(contact, before) + relative_velocity(contact, solution.bodies));
+    const double drift = drift_along(touches_[k].bodies, contact) / span_;
+    of_normals += impulse[0] * (mean[0] + std::min(0.0, drift));
+    of_friction += impulse.tail<2>().dot(mean.tail<2>() - mean_belt(k));
+  }
+  return of_normals + std::max(0.0, of_friction);
+}
+
+/// Whether contacts do no work, to the precision of plans. True where they have no solution, as
+/// their impulses are arbitrary then.
+bool IslandPlanner::contacts_do_no_work() const {
+  const ContactSolution& solution = last_->velocities;
+  if (symmetric_ || last_->slips || last_->yields || !is_solved(state_, solution)) {
+    return true;
+  }
+  double pressing = 0.0;  // [N s]
+  for (const Vector3d& impulse : solution.impulses) {
+    pressing += impulse[0];
+  }
+  const double h = state_.start.h;
+  const double lifting = kLiftOfContacts * state_.model.distances.least / h;  // [m/s]
+  const double lift = (lifting + 2.0 * projection_options(state_, problem_).tolerance) * pressing;
+  const double work = work_of_contacts();
+  if (work <= lift) {
+    return true;
+  }
+  const double most =
+      kEnergyOfContacts * energy_of(state_, problem_, solution.bodies, solution.mechanisms);
+  // In the shortest plans work changes its sign where the mean rule is as precise as it can be.
+  const bool is_shortest = span_ <= kLeastShareOfTied * h;
+  const double of_mean = is_shortest ? std::min(most, slack_of_mean() * pressing) : 0.0;
+  return work <= lift + span_ / h * most + of_mean;
 }
 
 }  // namespace firstcontact::detail

@@ -24,8 +24,8 @@ struct Plan;
 /// Whether contacts add no energy over a plan, to the precision of plans. True where ties, forces,
 /// robots, belts or scripts may add some.
 ///
-/// limit_energy() leaves room for the changes of contacts that turn, as tops need it. On a body that
-/// turns by half a radian in a plan it leaves too much.
+/// It looks at all of the energy, that of displacements too, where a body turns far. The planner
+/// limits the work of contacts in every plan.
 [[nodiscard]] bool contacts_add_no_energy(const IslandState& state, const Plan& plan,
                                           const ContactProblem& problem, double span);
 
