@@ -127,8 +127,11 @@ struct Rocker {
 };
 
 const Rocker kPlank{box("[1, 0.4, 0.08]"), 0.0, (1.0 + 0.08 * 0.08) / 12.0, ""};
+const std::string kOfRod = R"(, "inertia": [[0.08, 0, 0], [0, 0.08, 0], [0, 0, 0.0008]])";
 const Rocker kRod{R"({"capsule": {"radius": 0.04, "length": 1}})", 0.5 * std::numbers::pi, 0.08,
-                  R"(, "inertia": [[0.08, 0, 0], [0, 0.08, 0], [0, 0, 0.0008]])"};
+                  kOfRod};
+const Rocker kRoller{R"({"cylinder": {"radius": 0.04, "length": 1}})", 0.5 * std::numbers::pi, 0.08,
+                     kOfRod};
 
 /// A plank or a rod, 0.04 m from its axis to its side, rocks on a fixed body of radius 0.3 m whose
 /// axis is y.
@@ -188,12 +191,15 @@ TEST(RollingLaws, APlankRocksOnARoundBody) {
 // Two cylinders that cross: the contact goes along both axes.
 TEST(RollingLaws, ARodRocksAcrossARoundBody) {
   for (const std::string base :
-       {R"({"sphere": {"radius": 0.3}})", R"({"capsule": {"radius": 0.3, "length": 0.6}})"}) {
-    const Rocking at_20_ms = rocking(kRod, base, 0.02);
-    const Rocking at_10_ms = rocking(kRod, base, 0.01);
-    EXPECT_LE(at_20_ms.off, 1.5e-3) << base;
-    EXPECT_LE(at_10_ms.off, 0.35 * at_20_ms.off) << base;
-    EXPECT_LE(std::max(at_20_ms.gain, at_10_ms.gain), 1e-4) << base;
+       {R"({"sphere": {"radius": 0.3}})", R"({"capsule": {"radius": 0.3, "length": 0.6}})",
+        R"({"cylinder": {"radius": 0.3, "length": 0.6}})"}) {
+    for (const Rocker& rod : {kRod, kRoller}) {
+      const Rocking at_20_ms = rocking(rod, base, 0.02);
+      const Rocking at_10_ms = rocking(rod, base, 0.01);
+      EXPECT_LE(at_20_ms.off, 1.5e-3) << base << rod.shape;
+      EXPECT_LE(at_10_ms.off, 0.35 * at_20_ms.off) << base << rod.shape;
+      EXPECT_LE(std::max(at_20_ms.gain, at_10_ms.gain), 1e-4) << base << rod.shape;
+    }
   }
 }
 

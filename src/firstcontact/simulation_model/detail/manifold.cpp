@@ -384,22 +384,29 @@ void ManifoldFinder::find_among_triangles(const PlacedShape& A, const PlacedShap
 }
 
 /// Adds the points of convex sets: all of an ellipsoid, which has no others, and else those that
-/// are nearer than all that the triangles have. The gap is that of the sets.
+/// are nearer than all that the triangles have. The gap is that of the sets. Points of triangles
+/// that are nearer than it are none of the bodies.
 void ManifoldFinder::add_of_sets(const std::array<Pose, 2>& poses, double margin,
                                  Manifold& manifold) {
   const BodyPair& bodies = manifold.bodies;
   const TouchMaker maker(model_, bodies, poses, margin);
   const FacingBodies facing(model_, bodies, poses);
+  const ContactDistances& distances = model_.distances;
   close_points_of_sets({model_.bodies[bodies[0]].shape, poses[0]},
-                       {model_.bodies[bodies[1]].shape, poses[1]}, margin + model_.distances.band,
+                       {model_.bodies[bodies[1]].shape, poses[1]}, margin + distances.band,
                        workspace_, contacts_);
-  const double nearer = least_gap(manifold) - kSameGap * model_.distances.least;
-  const double size = smaller_reach(model_, bodies);
-  SpatialHash by_place(kSamePlace * size);
-  std::vector<ManifoldPoint> added;
   manifold.gap = std::numeric_limits<double>::infinity();
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
+  }
+  const double same = kSameGap * distances.least;
+  const double least = std::min(manifold.gap, distances.band) - same;
+  std::erase_if(manifold.touches, [&](const ManifoldPoint& touch) { return touch.gap < least; });
+  const double nearer = least_gap(manifold) - same;
+  const double size = smaller_reach(model_, bodies);
+  SpatialHash by_place(kSamePlace * size);
+  std::vector<ManifoldPoint> added;
+  for (const Contact& contact : contacts_) {
     if (!contact.n_AB_W || !(contact.distance - margin < nearer)) {
       continue;
     }

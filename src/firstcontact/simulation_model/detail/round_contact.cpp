@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -37,6 +39,9 @@ struct Side {
   std::optional<Vector3d> line = {};    // [-]  The direction of an edge, or of the axis.
 
   [[nodiscard]] bool is_round() const { return feature.circle != nullptr; }
+
+  /// [m]  The point of the line beside the contact.
+  [[nodiscard]] Vector3d& on_line() { return is_round() ? on_axis : core; }
 
   /// Makes the side of a rim the edge or the corner that it is.
   void make_plain(const std::optional<Vector3d>& edge) {
@@ -116,6 +121,83 @@ Vector3d outwards_of(const Side& side, const Side& other, const Vector3d& before
   return away.dot(before) > 0.0 ? away.normalized() : before;
 }
 
+/// Whether the axis of a cylinder crosses an edge, or another axis, on the outside of both bodies.
+bool cross(const std::array<Side, 2>& sides, const Vector3d& n) {
+  const auto is_along = [&](const Side& side) {
+    return !side.is_round() || (!side.feature.is_hole && std::abs(n.dot(side.axis)) <= kAlongSide);
+  };
+  return sides[0].line && sides[1].line && is_along(sides[0]) && is_along(sides[1]) &&
+         sides[0].line->cross(*sides[1].line).norm() > kCrossingEdges;
+}
+
+/// A corner of a feature.
+struct Corner {
+  std::uint32_t vertex = 0;
+  Vector3d place = Vector3d::Zero();  // [m]  In the world.
+};
+
+/// The corner of an edge, or of a triangle, that is farthest along a direction.
+Corner farthest_corner(const PlacedRound& body, const Feature& feature, const Vector3d& along) {
+  auto vertices = body.shape->mesh().triangles[feature.triangle];
+  if (feature.type == FeatureType::edge) {
+    const auto [a, b] = body.shape->edge(feature.index);
+    vertices = {a, b, b};
+  }
+  Corner farthest;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::uint32_t v : vertices) {
+    const Vector3d place =
+        body.pose.position + body.pose.rotation.normalized() * body.shape->mesh().vertices[v];
+    if (along.dot(place) > most) {
+      most = along.dot(place);
+      farthest = {v, place};
+    }
+  }
+  return farthest;
+}
+
+/// The corner beyond which the point of a side's line is; nothing where it is within its feature.
+std::optional<Corner> passed_corner(const PlacedRound& body, const Feature& feature, Side& side) {
+  for (const Vector3d& along : {*side.line, Vector3d(-*side.line)}) {
+    const Corner corner = farthest_corner(body, feature, along);
+    if (along.dot(side.on_line() - corner.place) > 0.0) {
+      return corner;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Moves the points of two lines that cross to where the lines are nearest. The corner of an edge
+/// takes its place where that is beyond it.
+///
+/// @returns whether the points then are within their features
+bool move_to_nearest(const std::array<PlacedRound, 2>& bodies, std::array<Feature, 2>& features,
+                     std::array<Side, 2>& sides) {
+  const std::array<Vector3d, 2> lines{*sides[0].line, *sides[1].line};
+  const Vector3d apart = sides[1].on_line() - sides[0].on_line();
+  const double cosine = lines[0].dot(lines[1]);
+  const double square = 1.0 - cosine * cosine;  // Of the sine.
+  const double along_A = lines[0].dot(apart);
+  const double along_B = lines[1].dot(apart);
+  sides[0].on_line() += (along_A - cosine * along_B) / square * lines[0];
+  sides[1].on_line() += (cosine * along_A - along_B) / square * lines[1];
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto corner =
+        sides[s].is_round() ? std::nullopt : passed_corner(bodies[s], features[s], sides[s]);
+    if (corner) {
+      Side& other = sides[1 - s];
+      sides[s].core = corner->place;
+      sides[s].line.reset();
+      features[s] = {FeatureType::vertex, corner->vertex, features[s].triangle};
+      other.on_axis += (corner->place - other.on_axis).dot(other.axis) * other.axis;
+    }
+  }
+  const auto is_within = [&](std::size_t s) {
+    return !sides[s].is_round() || !passed_corner(bodies[s], features[s], sides[s]);
+  };
+  return is_within(0) && is_within(1);
+}
+
 /// The nearest point of a circle, and its distance from the contact of the polygon.
 struct OnRound {
   Vector3d radial = Vector3d::Zero();  // [m]  Vector from the axis.
@@ -145,7 +227,7 @@ std::optional<OnRound> nearest_from_axis(const Side& side, const Vector3d& outwa
 std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies, double most_sag,
                                        Contact& contact) {
   Vector3d n = *contact.n_AB_W;
-  const std::array<Feature, 2> features{contact.feature_A, contact.feature_B};
+  std::array<Feature, 2> features{contact.feature_A, contact.feature_B};
   std::array<Side, 2> sides{side_of(bodies[0], contact.feature_A, contact.p_WA, n, most_sag),
                             side_of(bodies[1], contact.feature_B, contact.p_WB, -n, most_sag)};
   std::array<bool, 2> is_round{};
@@ -158,6 +240,10 @@ std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies,
     }
   }
   if (!is_round[0] && !is_round[1]) {
+    return {};
+  }
+  const bool do_cross = cross(sides, n);
+  if (do_cross && !move_to_nearest(bodies, features, sides)) {
     return {};
   }
   for (std::size_t s = 0; s < 2; ++s) {
@@ -187,11 +273,14 @@ std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies,
   const double rounding = kRoundingOfCircles * (points[0].norm() + points[1].norm() + nearer);
   const bool meet = !is_round[0] || !is_round[1] ||
                     (points[1] - points[0] - distance * n).norm() <= beside + rounding;
-  const bool is_possible = meet && distance >= contact.distance - nearer - rounding &&
-                           distance <= contact.distance + rounding;
+  // Where lines cross, both points are on their surfaces, wherever the polygons are nearest.
+  const bool is_possible = meet && distance <= contact.distance + rounding &&
+                           (do_cross || distance >= contact.distance - nearer - rounding);
   if ((!is_round[0] && !is_round[1]) || !is_possible) {
     return {};
   }
+  contact.feature_A = features[0];
+  contact.feature_B = features[1];
   contact.n_AB_W = n;
   contact.distance = distance;
   contact.p_WA = is_round[0] ? points[0] : Vector3d(points[1] - distance * n);
