@@ -42,6 +42,13 @@ TEST(PairProof, AWedgedToolMovesWhereItComesNoNearer) {
   EXPECT_EQ(proven_part(wedged, {0.0, 0.0, -0.1}).t, 0.0);
 }
 
+TEST(PairProof, SaysThatATooNearToolIsHeld) {
+  const double wedged = 1e-3 * kDistance;
+  EXPECT_TRUE(proven_part(wedged, {0.1, 0.0, -1e-10}).is_unproven);
+  EXPECT_FALSE(proven_part(wedged, {0.1, 0.0, 1e-9}).is_unproven);
+  EXPECT_FALSE(proven_part(kDistance, {0.0, 0.0, -0.1}).is_unproven);
+}
+
 /// A cube that slides along a plate, and one that rests on it while another one moves: anywhere.
 TEST(PairProof, RoundingAloneHoldsNoTool) {
   const double wedged = 1e-3 * kDistance;

@@ -42,6 +42,10 @@ inline constexpr double kSlackOfFloor = 1e-6;
 /// [-]  The most by which a turn in a round brings points of a pressed tool nearer, in second
 /// order. With more, more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 1.2;
+/// [-]  The least fraction of a plan that is made where plans turn back again and again...
+inline constexpr double kLeastPartOfPlan = 1.0 / 64.0;
+/// [-]  ...and the growth of that fraction in a round in which the plan does not turn back.
+inline constexpr double kGrowthOfPart = 1.5;
 /// [-]  The most by which links of a tool depart in a piece from the places that joints give
 /// them...
 inline constexpr double kBendOfLinks = 0.25;

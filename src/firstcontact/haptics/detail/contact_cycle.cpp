@@ -16,6 +16,14 @@
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {
+namespace {
+
+bool are_equal(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+}  // namespace
+
 /// [s]  Finds the part of a slot in which all courses are straight, to half the contact distance.
 double ContactLoop::Implementation::straight_slot(double slot) const {
   const double begin = time_ + now_;
@@ -363,6 +371,7 @@ bool ContactLoop::Implementation::make_round(const HapticTargets& targets, doubl
     set_courses(slot);
   }
   note_sliding(plan, slot / dt);
+  plan.displacements = plan.displacements.part(plan.damping);
   const double made = execute(plan, slot, dt, deadline_of_proofs());
   return goes_on_after(plan, made, slot == left);
 }
@@ -375,6 +384,8 @@ const HapticCycle& ContactLoop::Implementation::advance(const HapticTargets& tar
   deadline_ = deadline;
   begun_ = std::chrono::steady_clock::now();
   begin_cycle(dt);
+  are_targets_still_ = std::ranges::equal(targets.poses, last_targets_, are_equal) &&
+                       std::ranges::equal(targets.joints, last_joint_targets_);
   bool goes_on = true;
   while (goes_on && cycle_.rounds < options_.rounds && now_ < dt) {
     if (deadline && cycle_.rounds > 0 && std::chrono::steady_clock::now() >= *deadline) {

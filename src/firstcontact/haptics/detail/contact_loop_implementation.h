@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_coordinates.h>
@@ -20,6 +21,7 @@
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/last_round.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
+#include <firstcontact/haptics/detail/round_damping.h>
 #include <firstcontact/haptics/detail/tool_links.h>
 #include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/motion/motion.h>
@@ -74,6 +76,12 @@ class ContactLoop::Implementation {
     return poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
   }
 
+  /// [m]  Distance from the centre of a tool to its farthest point.
+  [[nodiscard]] double lever(std::size_t tool) const {
+    const HapticTool& its = scene_.tools[tool];
+    return (its.shape.bounds().centre - its.p_BC).norm() + members_[tool].reach;
+  }
+
   void begin_members();
   void begin_links();
   void begin_pairs();
@@ -95,7 +103,8 @@ class ContactLoop::Implementation {
   void set_courses(double slot);
   [[nodiscard]] const detail::ReducedContacts& reduced_touches();
   [[nodiscard]] detail::PlannedTouch planned(const HapticTouch& of) const;
-  [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
+  [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted,
+                                           bool has_friction = true);
   [[nodiscard]] detail::GodObjectPlan plan_within_turn(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_or_part(const detail::ToolDisplacements& ways);
   [[nodiscard]] detail::GodObjectPlan plan_round(const detail::ToolDisplacements& ways);
@@ -149,6 +158,8 @@ class ContactLoop::Implementation {
   double overtime_ = 0.0;  // [-]  Time of proofs after the deadline, by the time before it.
   std::vector<detail::PlannedTouch> planned_;
   detail::LastRound last_round_;
+  detail::RoundDamping damping_;
+  bool are_targets_still_ = false;  // Whether the targets are those of the last cycle.
   // Targets of the last cycle; empty before.
   std::vector<Pose> last_targets_;
   std::vector<double> last_joint_targets_;

@@ -56,8 +56,7 @@ detail::ToolDisplacements ContactLoop::Implementation::wanted(const HapticTarget
 double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& ways) const {
   double gain = 0.0;
   for (std::size_t k = 0; k < tools(); ++k) {
-    gain = std::max(
-        gain, ways[k].translation.norm() + ways[k].rotation_vector.norm() * members_[k].reach);
+    gain = std::max(gain, ways[k].translation.norm() + ways[k].rotation_vector.norm() * lever(k));
   }
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
     gain = std::max(gain, std::abs(ways.joints[joint]) * reaches_[joint]);
@@ -87,7 +86,8 @@ const detail::ReducedContacts& ContactLoop::Implementation::reduced_touches() {
 detail::PlannedTouch ContactLoop::Implementation::planned(const HapticTouch& of) const {
   const HapticContact& contact = of.contact;
   detail::PlannedTouch touch{.contact = &contact,
-                             .way = contact.gap - detail::kRestGap * distance_};
+                             .way = contact.gap - detail::kRestGap * distance_,
+                             .friction = contact.friction};
   if (contact.body >= 0) {
     const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
     touch.surface = courses_[member].at(contact.point - poses_[member].position);
@@ -104,13 +104,17 @@ detail::PlannedTouch ContactLoop::Implementation::planned(const HapticTouch& of)
   return touch;
 }
 
-detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
+detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted,
+                                                        bool has_friction) {
   planned_.clear();
   for (const std::size_t k : reduced_touches().kept) {
     planned_.push_back(planned(touches_[k]));
   }
   for (const HapticTouch& touch : left_) {
     planned_.push_back(planned(touch));
+  }
+  for (detail::PlannedTouch& touch : planned_) {
+    touch.friction = has_friction ? touch.friction : 0.0;
   }
   detail::GodObjectPlan plan = detail::plan_god_objects(
       wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_, deadline_.has_value());
@@ -133,8 +137,8 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
   detail::GodObjectPlan found = plan(wanted);
   double part = 1.0;
   for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
-    // A point at the reach sinks by half of reach times the square of the angle.
-    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
+    // The farthest point sinks by half of its lever times the square of the angle.
+    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / lever(k));
     part = std::min(part, most / found.displacements[k].rotation_vector.norm());
   }
   if (found.is_pressed) {
@@ -166,7 +170,8 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
   });
   is_parting_ = false;
   if (is_near && may_part_ && !are_courses_moving_) {
-    detail::GodObjectPlan parting = plan({});
+    // Friction could hold the tool between two surfaces that lean towards each other.
+    detail::GodObjectPlan parting = plan({}, false);
     if (gain_of(parting.displacements) > detail::kLeastParting * distance_) {
       is_parting_ = true;
       parting.is_shortened = true;
@@ -184,6 +189,9 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_round(
   detail::GodObjectPlan found = plan_or_part(ways);
   if (is_parting_ || are_courses_moving_ || !found.is_pressed) {
     last_round_.forget();
+    if (!is_parting_) {
+      damping_.reset();
+    }
     return found;
   }
   if (last_round_.is_left_by(found.displacements, frames_, tools())) {
@@ -191,6 +199,9 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_round(
     found = plan_within_turn(ways);
   }
   last_round_.keep(poses_, touches_, found.displacements);
+  found.damping = damping_.part_of(found.displacements, frames_, tools(),
+                                   cycle_.rounds > 1 || are_targets_still_);
+  found.is_shortened = found.is_shortened || found.damping < 1.0;
   return found;
 }
 

@@ -143,7 +143,7 @@ ContactProblem problem_of(const ToolDisplacements& wanted, const ToolFrames& fra
       point.arm_A = contact.point - frames.p_WC[other];
     }
     point.frame = contact_axes(contact.normal);
-    point.friction = contact.friction;
+    point.friction = touch.friction;
     const Vector3d surface = point.frame * touch.surface;
     point.least_normal_velocity = surface.x() - std::max(touch.way, least_way);
     point.sticking_velocity = surface.tail<2>();
@@ -189,6 +189,7 @@ bool plan_by_cuts(const ToolDisplacements& wanted, const ToolFrames& frames, std
     const Vector3d surface = contact_axes(touch.contact->normal) * touch.surface;
     contact.shift = {surface.x(), surface.y(), surface.z()};
     contact.way = std::max(touch.way, least_way);
+    contact.friction = touch.friction;
     cone.add(contact);
   }
   for (std::size_t joint = 0; joint < joints; ++joint) {

@@ -51,6 +51,7 @@ struct PlannedTouch {
   /// [m]  Displacement of the environment there, less that of a link that the coordinates do not
   /// have.
   Eigen::Vector3d surface = Eigen::Vector3d::Zero();
+  double friction = 0.0;  ///< [-]  Friction in this plan.
 };
 
 /// A plan of all tools.
@@ -60,6 +61,7 @@ struct GodObjectPlan {
   bool is_pressed = false;    ///< Whether contacts change it.
   bool is_shortened = false;  ///< Whether it goes only a fraction of the way...
   double part = 1.0;          ///< [-]  ...this one, where the fraction was chosen.
+  double damping = 1.0;       ///< [-]  The fraction of the displacements that is made.
 };
 
 /// Projects the displacements towards the targets on the contacts, with friction.

@@ -185,6 +185,7 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
   };
   if (proven.t > 0.0 && std::ranges::any_of(pairs, comes_nearer)) {
     proven.t = 0.0;
+    proven.is_unproven = true;
   }
   return proven;
 }

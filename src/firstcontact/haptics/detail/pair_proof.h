@@ -39,7 +39,7 @@ struct ProvenPart {
   /// [m]  Proven lower bound of all distances before t. Infinite without pairs.
   double clearance = 0.0;
   bool is_late = false;  ///< Whether the deadline ended a search.
-  /// Whether nothing is proven because a search ended before it knew more.
+  /// Whether nothing is proven: a search ended before it knew more, or a wedged pair is held.
   bool is_unproven = false;
 };
 
