@@ -166,6 +166,24 @@ TEST(ContactEnergy, BodiesUnderForcesGainTheirWork) {
   }
 }
 
+// A belt and a script far away once switched it off, too.
+TEST(ContactEnergy, BeltsAndScriptsElsewhereGiveNone) {
+  const std::string elsewhere =
+      R"(, {"name": "belt", "shape": {"box": {"size": [1, 1, 1]}}, "pose": {"position": [20, 0, 0]},
+          "surface": {"velocity": [1, 0, 0]}},
+         {"name": "script", "shape": {"sphere": {"radius": 0.1}},
+          "motion": {"type": "constant_velocity", "from": {"position": [20, 9, 0]},
+                     "translation": [0, 0, 1]}})";
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Draw draw(seed);
+    const std::string body = draw.falling();
+    Simulator s =
+        simulator(body + ", " + draw.ground() + elsewhere, R"("duration": 0.6, "step": 0.01)");
+    expect_no_gain(s, 60);
+  }
+}
+
 // A small body falls on a large one that is free as well. Opposite forces hold them together.
 TEST(ContactEnergy, FreeBodiesThatMeetGainNone) {
   const std::vector<std::string> large{R"({"capsule": {"radius": 0.5, "length": 1.5}})",
