@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -114,6 +115,39 @@ TEST(ThickHull, RandomHullsAreThoseOfManyPoints) {
     expect_near(got, extrapolated(coarse, fine), 2e-4);
     EXPECT_GT(got.volume, fine.volume);
   }
+}
+
+/// A flat hull has no space of its own, but its radius has: a plate with a round rim.
+TEST(ThickHull, AFlatHullIsAPlate) {
+  const std::vector<Vector3d> square{
+      {-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}, {-0.1, 0.1, 0.0}};
+  const double r = 0.05;
+  // J. Steiner: area, half perimeter, ball.
+  EXPECT_NEAR(mass_properties(make_convex_hull(square, r)).volume,
+              0.04 * 2.0 * r + 0.4 * kPi * r * r + 4.0 / 3.0 * kPi * r * r * r, 1e-16);
+  test::Random random(8);
+  for (const std::size_t count : {3u, 4u, 5u, 9u, 40u}) {
+    const double radius = random.uniform(0.2, 0.8);
+    std::vector<Vector3d> points;
+    for (std::size_t k = 0; k < count; ++k) {
+      points.emplace_back(5.0 + random.uniform(-1, 1), -3.0, random.uniform(-1, 1));
+    }
+    const std::vector<Vector3d> corners = convex_hull(points).vertices;
+    const MassProperties got = mass_properties(make_convex_hull(points, radius));
+    const MassProperties fine = of_inscribed(corners, radius, 8'000);
+    expect_near(got, extrapolated(of_inscribed(corners, radius, 2'000), fine), 5e-4);
+    EXPECT_GT(got.volume, fine.volume);
+  }
+}
+
+// A mesh that is flat but not convex encloses nothing.
+TEST(ThickHull, ASheetWithANotchIsNone) {
+  const Mesh notched{.vertices = {{0, 0, 0}, {1, -1, 0}, {0.2, 0, 0}, {1, 1, 0}},
+                     .triangles = {{0, 1, 2}, {0, 2, 3}}};
+  EXPECT_THROW((void)mass_properties(Shape(notched, 0.1)), std::invalid_argument);
+  const Mesh bent{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}},
+                  .triangles = {{0, 1, 2}, {0, 2, 3}}};
+  EXPECT_THROW((void)mass_properties(Shape(bent, 0.1)), std::invalid_argument);
 }
 
 // Faces of several triangles, and triangles that face inwards, change nothing.

@@ -27,6 +27,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// [-]  Part of the extent of a polygon by which rounding may move its corners out of its plane.
+constexpr double kFlat = 1e-9;
+
 [[noreturn]] void refuse(const std::string& what, const std::string& mend = "") {
   throw std::invalid_argument("mass_properties: " + what + "; " + mend +
                               "give mass, centre_of_mass and inertia");
@@ -82,6 +85,51 @@ MassProperties of_capsule(const Vector3d& begin, const Vector3d& end, double r) 
                         caps * (0.4 * r * r + 0.25 * length * length + 0.375 * length * r);
   return {middle + caps, begin + 0.5 * axis,
           across * Matrix3d::Identity() + (along - across) * u * u.transpose()};
+}
+
+/// The corners of the convex polygon in a plane that a fan of triangles covers; empty for other
+/// meshes.
+std::vector<std::uint32_t> convex_polygon(const Mesh& mesh) {
+  std::vector<std::uint32_t> corners{mesh.triangles[0][0], mesh.triangles[0][1]};
+  for (const Triangle& t : mesh.triangles) {
+    if (t[0] != corners.front() || t[1] != corners.back()) {
+      return {};
+    }
+    corners.push_back(t[2]);
+  }
+  const std::size_t n = corners.size();
+  const auto place = [&](std::size_t k) -> const Vector3d& {
+    return mesh.vertices[corners[k % n]];
+  };
+  Vector3d area = Vector3d::Zero();
+  for (std::size_t k = 2; k < n; ++k) {
+    area += (place(k - 1) - place(0)).cross(place(k) - place(0));
+  }
+  const Vector3d normal = area.stableNormalized();
+  double extent = 0.0;
+  bool is_convex = true;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vector3d edge = place(k + 1) - place(k);
+    const double off = std::abs(normal.dot(place(k) - place(0)));
+    extent = std::max(extent, edge.norm());
+    is_convex = is_convex && off <= kFlat * extent &&
+                normal.dot(edge.cross(place(k + 2) - place(k + 1))) >= 0.0;
+  }
+  return is_convex && !normal.isZero() ? corners : std::vector<std::uint32_t>{};
+}
+
+/// The integrals over the space within a radius of a convex polygon.
+MassProperties of_plate(const Mesh& mesh, const std::vector<std::uint32_t>& corners, double r) {
+  // Fans from two corners share no diagonal, so that each edge has two triangles.
+  const std::size_t n = corners.size();
+  Mesh faces{.vertices = mesh.vertices, .triangles = {}};
+  for (std::size_t k = 2; k < n; ++k) {
+    faces.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+    faces.triangles.push_back({corners[1], corners[(k + 1) % n], corners[k]});
+  }
+  MassProperties flat;
+  flat.p_BC = mesh.vertices[corners[0]];
+  return detail::thickened(flat, faces, 1.0, r);
 }
 
 /// The tetrahedra from a point to the triangles: the sum of six times their signed volume, and a
@@ -222,6 +270,11 @@ MassProperties mass_properties(const Shape& shape) {
   const std::vector<Vector3d> places = used_places(mesh);
   if (places.size() <= 2 && shape.radius() > 0.0) {
     return of_capsule(places.front(), places.back(), shape.radius());
+  }
+  if (shape.radius() > 0.0) {
+    if (const std::vector<std::uint32_t> corners = convex_polygon(mesh); !corners.empty()) {
+      return of_plate(mesh, corners, shape.radius());
+    }
   }
   if (const std::size_t open = unbalanced_edges(mesh); open > 0) {
     refuse("it encloses no space: " + std::to_string(open) +

@@ -23,7 +23,8 @@ struct MassProperties {
 ///
 /// The solid is the polyhedron that the triangles enclose, whether or not the shape counts as
 /// solid. A radius around a convex shape that counts as solid belongs to it. For a thickened point
-/// the solid is a ball, for a thickened edge a capsule. Vertices at the same place count as one.
+/// the solid is a ball, for a thickened edge a capsule, for a thickened flat hull a plate with a
+/// round rim. Vertices at the same place count as one.
 ///
 /// Triangles may all face outwards or all inwards; those around a cavity face into it. Space that
 /// they wind around twice, as components that overlap do, counts twice. A radius around another

@@ -131,7 +131,10 @@ class Layer {
     if (!(angle > 0.0 && length > 0.0)) {
       return;
     }
-    const Vector3d u = (normal(sides[0]) + normal(sides[1])).normalized();
+    // Halfway between both normals, which may be opposite.
+    const Vector3d n = normal(sides[0]);
+    const Vector3d u =
+        std::cos(0.5 * angle) * n + std::sin(0.5 * angle) * sign_ * (way / length).cross(n);
     const Vector3d v = u.cross(way / length);
     const double area = 0.5 * angle * r_ * r_;
     const double first = 2.0 / 3.0 * std::sin(0.5 * angle) * r_ * r_ * r_;

@@ -21,7 +21,7 @@ namespace firstcontact::detail {
 /// on each corner. The sectors of corners make up a whole ball (J. Steiner, 1840). Exact but for
 /// rounding.
 ///
-/// @param core    over the polyhedron
+/// @param core    over the polyhedron; its volume may be 0, of a polygon with two faces
 /// @param mesh    its triangles: closed, each vertex once
 /// @param sign    as of is_convex()
 /// @param radius  [m]  > 0
