@@ -70,6 +70,27 @@ TEST(VerifyRun, FindsTheLeastDistance) {
   EXPECT_LE(proven.closest->distance, 0.1055);
 }
 
+// Masses say which bodies forces moved.
+TEST(VerifyRun, BreaksWhereAMassContradictsItsScene) {
+  RecordedRun free_without_mass = fly_by(0.1);
+  free_without_mass.header.masses[0] = 0.0;
+  RecordedRun fixed_with_mass = fly_by(0.1);
+  fixed_with_mass.header.masses[1] = 5.0;
+  RecordedRun other_mass = fly_by(0.1);
+  other_mass.header.scene.bodies[0].free->mass = 2.0;
+  const std::vector<std::pair<RecordedRun, std::string>> runs{
+      {free_without_mass, "The mass of \"mover\" is 0 kg, but the body is free."},
+      {fixed_with_mass, "The mass of \"other\" is 5 kg, but the body is not free."},
+      {other_mass, "The mass of \"mover\" is 1 kg, but its scene gives 2 kg."}};
+  for (const auto& [run, problem] : runs) {
+    const RunVerification broken = run.verify();
+    EXPECT_EQ(broken.verdict, ProofVerdict::broken);
+    EXPECT_EQ(broken.problem, problem);
+  }
+  other_mass.header.masses[0] = 2.0;
+  EXPECT_EQ(other_mass.verify().verdict, ProofVerdict::proven);
+}
+
 TEST(VerifyRun, RefutesWhatWasNotKept) {
   const RunVerification refuted = fly_by(0.10001).verify();
   EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
@@ -315,6 +336,7 @@ TEST(VerifyRun, LeavesPairsWithoutAFreeBodyAlone) {
   run.add({{0, {{.lasts = 1.0, .velocity = {0.0, 0.0, -1.0}}}}}, 1e-6);
   EXPECT_EQ(run.verify().verdict, ProofVerdict::proven);
   run.header.scene.bodies[1].free.emplace();
+  run.header.masses[1] = 1.0;
   EXPECT_EQ(run.verify().verdict, ProofVerdict::refuted);
 }
 

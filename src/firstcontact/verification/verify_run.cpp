@@ -87,6 +87,18 @@ std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& 
   return members;
 }
 
+/// What a mass of the header contradicts in the scene; empty where it agrees.
+std::string wrong_mass(const Body& body, double mass) {
+  const std::optional<double> given = body.free ? body.free->mass : 0.0;
+  if (given ? mass == *given : mass > 0.0) {
+    return {};
+  }
+  return "The mass of \"" + body.name + "\" is " + detail::shortest(mass) + " kg, but " +
+         (!body.free ? "the body is not free."
+          : given    ? "its scene gives " + detail::shortest(*given) + " kg."
+                     : "the body is free.");
+}
+
 LoadedScene load(const RunHeader& header) {
   require_plain(header.scene);
   ShapeCache cache;
@@ -104,6 +116,9 @@ class Verification {
     result_.least_distance = kInfinity;
     result_.pair_counts = loaded_.pair_counts;
     result_.warnings = loaded_.warnings;
+    if (header.kind == RunKind::simulation) {
+      require_masses(header);
+    }
   }
 
   RunVerification run(const std::function<std::optional<RunStep>()>& next) {
@@ -164,6 +179,15 @@ class Verification {
     FollowedBody rest;
     rest.pieces.emplace_back(member.start, 0.0, 0.0, member.p_BC);
     return rest;
+  }
+
+  void require_masses(const RunHeader& header) {
+    for (std::size_t b = 0; b < loaded_.scene.bodies.size() && going(); ++b) {
+      if (std::string wrong = wrong_mass(loaded_.scene.bodies[b], header.masses.at(b));
+          !wrong.empty()) {
+        stop(ProofVerdict::broken, std::move(wrong));
+      }
+    }
   }
 
   /// Requires that no body begins inside of a solid, as it would never have to cross the surface.
