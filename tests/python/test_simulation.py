@@ -167,6 +167,8 @@ def test_surfaces_change():
 @pytest.mark.parametrize(("call", "complaint"), [
     (lambda s: s.apply_force("floor", (1, 0, 0)), "apply_force: body 0 is not free"),
     (lambda s: s.apply_force("box", (math.nan, 0, 0)), "finite"),
+    (lambda s: s.apply_force("box", (0, 0, 1e300)), "apply_force: .* at most 1e60"),
+    (lambda s: s.set_gravity((0, 0, 1e300)), "set_gravity: .* at most 1e60"),
     (lambda s: s.apply_force("bax", (1, 0, 0)), "there is none of the name"),
     (lambda s: s.set_gravity((0, 0)), "gravity: expected 3 numbers"),
     (lambda s: s.set_surface("box", friction=-1), "friction must be >= 0"),

@@ -135,6 +135,10 @@ TEST(SteeredSimulation, RefusesWhatItCannotDo) {
   EXPECT_THROW(s.apply_force(1, Vector3d::Zero(), Vector3d::Zero(), Vector3d(nan, 0.0, 0.0)),
                std::invalid_argument);
   EXPECT_THROW(s.set_gravity({nan, 0.0, 0.0}), std::invalid_argument);
+  // Later nothing could tell which call was wrong.
+  EXPECT_THROW(s.apply_force(1, {0.0, 0.0, 1e300}), std::invalid_argument);
+  EXPECT_THROW(s.apply_force(1, Vector3d::Zero(), {0.0, 0.0, 1e300}), std::invalid_argument);
+  EXPECT_THROW(s.set_gravity({0.0, 0.0, -1e300}), std::invalid_argument);
   EXPECT_THROW(s.set_surface(2, {}), std::invalid_argument);
   EXPECT_THROW(s.set_surface(1, {.friction = -1.0, .restitution = {}}), std::invalid_argument);
   EXPECT_THROW(s.set_surface(1, {.friction = {}, .restitution = 1.5}), std::invalid_argument);

@@ -55,6 +55,9 @@ void require_simulation(const LoadedScene& loaded) {
   }
 }
 
+/// Whether numbers are finite, and so small that products of lengths do not overflow: as in scenes.
+bool is_in_range(const Vector3d& v) { return v.cwiseAbs().maxCoeff() <= 1e60 && !v.hasNaN(); }
+
 /// Refuses a command with a defect.
 ///
 /// @throws std::invalid_argument unless nothing is wrong
@@ -117,12 +120,12 @@ class Simulator::Implementation {
       throw std::invalid_argument("set_state: body " + std::to_string(body) +
                                   " is a link; move its robot");
     }
-    if (!state.X_WB.position.allFinite() || !state.X_WB.rotation.coeffs().allFinite() ||
-        !is_rotation(state.X_WB.rotation.coeffs()) || !state.v_WC.allFinite() ||
-        !state.w_WB.allFinite()) {
+    if (!is_in_range(state.X_WB.position) || !state.X_WB.rotation.coeffs().allFinite() ||
+        !is_rotation(state.X_WB.rotation.coeffs()) || !is_in_range(state.v_WC) ||
+        !is_in_range(state.w_WB)) {
       throw std::invalid_argument(
-          "set_state: numbers must be finite, and the length of the quaternion not zero nor beyond "
-          "doubles");
+          "set_state: numbers must be finite and at most 1e60 in size, and the length of the "
+          "quaternion not zero nor beyond doubles");
     }
     std::vector<RigidState> states = state_.states;
     states[body] = state;
@@ -179,8 +182,8 @@ class Simulator::Implementation {
     require_free("apply_force", body);
     const Vector3d p_WC = centre_of_mass(model_.bodies[body].inertia, state_.states[body].X_WB);
     const Vector3d about_C = torque + (p_WP.value_or(p_WC) - p_WC).cross(force);
-    if (!force.allFinite() || !about_C.allFinite()) {
-      throw std::invalid_argument("apply_force: numbers must be finite");
+    if (!is_in_range(force) || !is_in_range(about_C)) {
+      throw std::invalid_argument("apply_force: numbers must be finite and at most 1e60 in size");
     }
     applied_.push_back(body);
     model_.bodies[body].forces.push_back({.from = -std::numeric_limits<double>::infinity(),
@@ -208,8 +211,8 @@ class Simulator::Implementation {
   }
 
   void set_gravity(const Vector3d& gravity) {
-    if (!gravity.allFinite()) {
-      throw std::invalid_argument("set_gravity: numbers must be finite");
+    if (!is_in_range(gravity)) {
+      throw std::invalid_argument("set_gravity: numbers must be finite and at most 1e60 in size");
     }
     if (gravity != model_.gravity) {
       model_.gravity = gravity;

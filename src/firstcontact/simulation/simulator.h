@@ -67,8 +67,9 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// Where it throws, nothing is changed.
   ///
-  /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, the
-  ///         quaternion is zero, the body would meet another one, or a tie would be torn
+  /// @throws std::invalid_argument if the body is not free or a link, a number is not finite or
+  ///         beyond 1e60, the quaternion is zero, the body would meet another one, or a tie would be
+  ///         torn
   void set_state(std::size_t body, const RigidState& state);
 
   /// The states of all robots that have dynamics.
@@ -93,7 +94,7 @@ class FIRSTCONTACT_API Simulator {
   /// @param p_WP     [m]    The point that the force acts on, which adds a torque; the centre of
   ///                        mass where none is given.
   /// @throws std::invalid_argument if the body is neither free nor of a robot with dynamics, or a
-  ///         number is not finite
+  ///         number is not finite or beyond 1e60
   void apply_force(std::size_t body, const Eigen::Vector3d& force,
                    const Eigen::Vector3d& torque = Eigen::Vector3d::Zero(),
                    const std::optional<Eigen::Vector3d>& p_WP = {});
@@ -112,7 +113,7 @@ class FIRSTCONTACT_API Simulator {
 
   /// Changes gravity [m/s^2] from the next step on. Potential energies are those of the new field.
   ///
-  /// @throws std::invalid_argument if a number is not finite
+  /// @throws std::invalid_argument if a number is not finite or beyond 1e60
   void set_gravity(const Eigen::Vector3d& gravity);
 
   /// Changes the given values of the surface of a body, from the next step on.
