@@ -134,6 +134,16 @@ TEST(ThickHull, AFlatHullIsAPlate) {
     }
     const std::vector<Vector3d> corners = convex_hull(points).vertices;
     const MassProperties got = mass_properties(make_convex_hull(points, radius));
+    // Turned, its corners are in one plane but for rounding.
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.0, Vector3d(1, 2, 3).normalized()));
+    std::vector<Vector3d> turned;
+    for (const Vector3d& point : points) {
+      turned.push_back(turn * point);
+    }
+    const MassProperties same = mass_properties(make_convex_hull(turned, radius));
+    const Matrix3d R = turn.toRotationMatrix();
+    expect_near({same.volume, R.transpose() * same.p_BC, R.transpose() * same.about_C * R}, got,
+                1e-12);
     const MassProperties fine = of_inscribed(corners, radius, 8'000);
     expect_near(got, extrapolated(of_inscribed(corners, radius, 2'000), fine), 5e-4);
     EXPECT_GT(got.volume, fine.volume);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/convex_core.h>
+#include <firstcontact/geometry/convex_hull.h>
 #include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/detail/thick_hull.h>
 #include <firstcontact/geometry/detail/vertex_components.h>
@@ -27,7 +29,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// [-]  Part of the extent of a polygon by which rounding may move its corners out of its plane.
+/// [-]  Part of its size by which rounding may move corners of a flat hull out of their plane.
 constexpr double kFlat = 1e-9;
 
 [[noreturn]] void refuse(const std::string& what, const std::string& mend = "") {
@@ -87,49 +89,66 @@ MassProperties of_capsule(const Vector3d& begin, const Vector3d& end, double r) 
           across * Matrix3d::Identity() + (along - across) * u * u.transpose()};
 }
 
-/// The corners of the convex polygon in a plane that a fan of triangles covers; empty for other
-/// meshes.
-std::vector<std::uint32_t> convex_polygon(const Mesh& mesh) {
-  std::vector<std::uint32_t> corners{mesh.triangles[0][0], mesh.triangles[0][1]};
-  for (const Triangle& t : mesh.triangles) {
-    if (t[0] != corners.front() || t[1] != corners.back()) {
-      return {};
-    }
+/// The integrals over the space within a radius of a convex polygon.
+///
+/// @param polygon  a fan of triangles, as convex_hull() makes it
+MassProperties of_plate(const Mesh& polygon, double r) {
+  std::vector<std::uint32_t> corners{polygon.triangles[0][0], polygon.triangles[0][1]};
+  for (const Triangle& t : polygon.triangles) {
     corners.push_back(t[2]);
   }
-  const std::size_t n = corners.size();
-  const auto place = [&](std::size_t k) -> const Vector3d& {
-    return mesh.vertices[corners[k % n]];
-  };
-  Vector3d area = Vector3d::Zero();
-  for (std::size_t k = 2; k < n; ++k) {
-    area += (place(k - 1) - place(0)).cross(place(k) - place(0));
-  }
-  const Vector3d normal = area.stableNormalized();
-  double extent = 0.0;
-  bool is_convex = true;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vector3d edge = place(k + 1) - place(k);
-    const double off = std::abs(normal.dot(place(k) - place(0)));
-    extent = std::max(extent, edge.norm());
-    is_convex = is_convex && off <= kFlat * extent &&
-                normal.dot(edge.cross(place(k + 2) - place(k + 1))) >= 0.0;
-  }
-  return is_convex && !normal.isZero() ? corners : std::vector<std::uint32_t>{};
-}
-
-/// The integrals over the space within a radius of a convex polygon.
-MassProperties of_plate(const Mesh& mesh, const std::vector<std::uint32_t>& corners, double r) {
   // Fans from two corners share no diagonal, so that each edge has two triangles.
   const std::size_t n = corners.size();
-  Mesh faces{.vertices = mesh.vertices, .triangles = {}};
+  Mesh faces{.vertices = polygon.vertices, .triangles = {}};
   for (std::size_t k = 2; k < n; ++k) {
     faces.triangles.push_back({corners[0], corners[k - 1], corners[k]});
     faces.triangles.push_back({corners[1], corners[(k + 1) % n], corners[k]});
   }
-  MassProperties flat;
-  flat.p_BC = mesh.vertices[corners[0]];
-  return detail::thickened(flat, faces, 1.0, r);
+  return detail::thickened({}, faces, 1.0, r);
+}
+
+/// Twice the area of a triangle, along its normal.
+Vector3d twice_area(const Mesh& mesh, const Triangle& t) {
+  const Vector3d& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+}
+
+/// The integrals over the space within a radius of a flat hull.
+///
+/// Rounding may lift its corners out of their plane: then it has two sides.
+///
+/// @returns nothing for other meshes
+std::optional<MassProperties> of_flat_hull(const Mesh& mesh, const std::vector<Vector3d>& places,
+                                           double r) {
+  Vector3d normal = Vector3d::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3d along = twice_area(mesh, t);
+    area += along.norm();
+    normal = along.norm() > normal.norm() ? along : normal;
+  }
+  const Vector3d& origin = places.front();
+  const Matrix3d R =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal).toRotationMatrix();
+  std::vector<Vector3d> flat;
+  for (const Vector3d& place : places) {
+    const Vector3d p = R.transpose() * (place - origin);
+    if (!(std::abs(p.z()) <= kFlat * std::sqrt(area))) {
+      return std::nullopt;
+    }
+    flat.emplace_back(p.x(), p.y(), 0.0);
+  }
+  const Mesh polygon = convex_hull(flat);
+  double of_hull = 0.0;
+  for (const Triangle& t : polygon.triangles) {
+    of_hull += twice_area(polygon, t).norm();
+  }
+  const double off = std::min(std::abs(area - of_hull), std::abs(area - 2.0 * of_hull));
+  if (!(area > 0.0) || off > kFlat * area) {
+    return std::nullopt;
+  }
+  const MassProperties plate = of_plate(polygon, r);
+  return MassProperties{plate.volume, origin + R * plate.p_BC, R * plate.about_C * R.transpose()};
 }
 
 /// The tetrahedra from a point to the triangles: the sum of six times their signed volume, and a
@@ -272,8 +291,8 @@ MassProperties mass_properties(const Shape& shape) {
     return of_capsule(places.front(), places.back(), shape.radius());
   }
   if (shape.radius() > 0.0) {
-    if (const std::vector<std::uint32_t> corners = convex_polygon(mesh); !corners.empty()) {
-      return of_plate(mesh, corners, shape.radius());
+    if (const std::optional<MassProperties> plate = of_flat_hull(mesh, places, shape.radius())) {
+      return *plate;
     }
   }
   if (const std::size_t open = unbalanced_edges(mesh); open > 0) {
