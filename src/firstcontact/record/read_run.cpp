@@ -7,58 +7,21 @@
 #include <limits>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/record/detail/json_place.h>
+#include <firstcontact/record/detail/scene_digest.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
-#include <firstcontact/text/parse_json.h>
-#include <firstcontact/text/sha256.h>
-#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
 
 using nlohmann::json;
-
-/// The deepest brackets of a line in which a place of a run is looked for.
-constexpr int kDeepest = 8;
-
-/// A key without its quotes, on one line whatever it contains.
-std::string printable(const std::string& key) {
-  const std::string quoted = json(key).dump();
-  return quoted.substr(1, quoted.size() - 2);
-}
-
-/// The place of a value below the root: ".bodies[2].pieces"; nothing if it is not there.
-///
-/// It is searched for only when there is an error to report.
-std::optional<std::string> place_of(const json& value, const json& root, int depth = 0) {
-  if (&value == &root) {
-    return "";
-  }
-  if (depth == kDeepest) {
-    return std::nullopt;
-  }
-  if (root.is_object()) {
-    for (const auto& [key, member] : root.items()) {
-      if (const auto place = place_of(value, member, depth + 1)) {
-        return "." + printable(key) + *place;
-      }
-    }
-  } else if (root.is_array()) {
-    for (std::size_t i = 0; i < root.size(); ++i) {
-      if (const auto place = place_of(value, root[i], depth + 1)) {
-        return "[" + std::to_string(i) + "]" + *place;
-      }
-    }
-  }
-  return std::nullopt;
-}
 
 /// Takes values out of one line, or reports the place of an unexpected value.
 class Line {
@@ -69,7 +32,7 @@ class Line {
   [[nodiscard]] const json& root() const { return root_; }
 
   [[noreturn]] void fail(const json& where, const std::string& expected) const {
-    std::string place = place_of(where, root_).value_or("");
+    std::string place = detail::place_of(where, root_).value_or("");
     place = place.empty() ? "" : place.substr(1) + ": ";
     throw ParseError(path_, number_, place + "expected " + expected);
   }
@@ -178,20 +141,6 @@ class Line {
 
 constexpr std::size_t kAnyCount = std::numeric_limits<std::size_t>::max();
 
-/// Refuses a header whose scene was edited. Those of older versions have no digest of it.
-void require_own_scene(const std::string& text, const std::string& path, const Line& line) {
-  const auto digest = line.root().find("resolved_digest");
-  if (digest == line.root().end()) {
-    return;
-  }
-  const detail::JsonValue header = detail::parse_json(text, path, 1);
-  const detail::JsonValue* scene =
-      detail::find(std::get<detail::JsonObject>(header.value), "scene");
-  if (line.string(*digest) != detail::sha256(detail::write_json(*scene))) {
-    line.fail(*digest, "the digest of \"scene\", which was edited; make the run again");
-  }
-}
-
 RunHeader read_header(const std::string& text, const std::string& path,
                       const ReadingOptions& options) {
   const Line line(text, path, 1);
@@ -204,7 +153,10 @@ RunHeader read_header(const std::string& text, const std::string& path,
                     {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
                      "masses", "centres_of_mass"},
                     {"kind", "resolved_digest"});
-  require_own_scene(text, path, line);
+  if (const auto digest = root.find("resolved_digest");
+      digest != root.end() && line.string(*digest) != detail::digest_of_scene_in(text)) {
+    line.fail(*digest, "the digest of \"scene\", which was edited; make the run again");
+  }
   RunHeader header;
   if (const auto kind = root.find("kind"); kind != root.end()) {
     if (*kind != "haptics") {

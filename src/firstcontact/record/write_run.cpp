@@ -15,13 +15,11 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/math/number_text.h>
+#include <firstcontact/record/detail/scene_digest.h>
 #include <firstcontact/record/run.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/scene_files/write_scene.h>
-#include <firstcontact/text/parse_json.h>
-#include <firstcontact/text/sha256.h>
-#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
@@ -254,12 +252,12 @@ Json to_json(const std::vector<T>& elements) {
 
 std::string write_run_header(const RunHeader& header) {
   const std::string scene = write_scene(header.scene);
-  const std::string resolved_digest =
-      detail::sha256(detail::write_json(detail::parse_json(scene, "scene", 1)));
-  const Json rest = {
-      {"version", header.version},          {"scene_digest", header.scene.text_digest},
-      {"resolved_digest", resolved_digest}, {"input_digest", header.input_digest},
-      {"masses", to_json(header.masses)},   {"centres_of_mass", to_json(header.centres_of_mass)}};
+  const Json rest = {{"version", header.version},
+                     {"scene_digest", header.scene.text_digest},
+                     {"resolved_digest", detail::digest_of_scene(scene)},
+                     {"input_digest", header.input_digest},
+                     {"masses", to_json(header.masses)},
+                     {"centres_of_mass", to_json(header.centres_of_mass)}};
   const char* kind = header.kind == RunKind::haptics ? "\"kind\":\"haptics\"," : "";
   // The scene has a writer of its own.
   return std::string("{\"firstcontact_run\":1,") + kind + "\"scene\":" + scene + "," +

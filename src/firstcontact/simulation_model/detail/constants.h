@@ -300,9 +300,8 @@ inline constexpr double kTurnOfEnergy = 0.05;
 /// [-]  Greatest gain of energy in a step of bodies in contact that turn, by their kinetic energy.
 /// Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTurning = 1e-4;
-/// [-]  Greatest work of contacts in a step, by the kinetic energy, and the lift in it, by the
-/// contact distance. Where both together would be exceeded, plans become shorter, and at last
-/// symmetric. Smaller: plans become shorter where contacts are right to second order.
+/// [-]  Greatest work of contacts in a step, by the kinetic energy, and lift in it, by the contact
+/// distance. Smaller: plans become shorter where contacts are right to second order.
 inline constexpr double kEnergyOfContacts = 1e-3;
 inline constexpr double kLiftOfContacts = 0.1;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
