@@ -182,9 +182,8 @@ bool move_to_nearest(const std::array<PlacedRound, 2>& bodies, std::array<Featur
   sides[0].on_line() += (along_A - cosine * along_B) / square * lines[0];
   sides[1].on_line() += (cosine * along_A - along_B) / square * lines[1];
   for (std::size_t s = 0; s < 2; ++s) {
-    const auto corner =
-        sides[s].is_round() ? std::nullopt : passed_corner(bodies[s], features[s], sides[s]);
-    if (corner) {
+    const auto corner = passed_corner(bodies[s], features[s], sides[s]);
+    if (corner && !sides[s].is_round()) {
       Side& other = sides[1 - s];
       sides[s].core = corner->place;
       sides[s].line.reset();
