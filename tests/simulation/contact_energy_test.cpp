@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
