@@ -17,6 +17,7 @@
 #include <firstcontact/island/detail/sleeping.h>
 #include <firstcontact/record/detail/earlier_impulses.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -324,11 +325,14 @@ class Island {
   }
 
   /// Makes the touches of a plan those of the step, with the earlier impulses. Impulses on pairs
-  /// that parted become impacts.
+  /// that parted become impacts. So do those far from all touches of their pair: at another place
+  /// they would have another moment.
   ///
   /// @param before  [s]  begin of the plan
   void take(std::vector<ManifoldPoint> touches, double before) {
-    add_earlier_impulses(track_.touches, touches);
+    add_earlier_impulses(track_.touches, touches, [&](const ManifoldPoint& earlier) {
+      return kCarriedWithin * smaller_reach(state_.model, earlier.bodies);
+    });
     for (const ManifoldPoint& parted : track_.touches) {
       track_.impacts.push_back({before, parted.bodies, parted.point, parted.impulse});
     }

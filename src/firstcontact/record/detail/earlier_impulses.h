@@ -16,16 +16,18 @@ namespace firstcontact::detail {
 /// pair.
 ///
 /// @tparam Contact  has `bodies`, `feature_A`, `feature_B`, `point` and `impulse`
-/// @param earlier  contacts of pairs that parted stay in it; all others are removed
-template <typename Contact>
-void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& contacts) {
+/// @param earlier   contacts that none takes on stay in it; all others are removed
+/// @param farthest  [m]  distance from a contact within which others take its impulse on
+template <typename Contact, typename Farthest>
+void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& contacts,
+                          const Farthest& farthest) {
   std::multimap<BodyPair, Contact*> of_pair;
   for (Contact& contact : contacts) {
     of_pair.emplace(contact.bodies, &contact);
   }
   std::erase_if(earlier, [&](const Contact& before) {
     Contact* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
+    double least = farthest(before);
     const auto [first, end] = of_pair.equal_range(before.bodies);
     for (auto found = first; found != end && !before.impulse.isZero(0.0); ++found) {
       Contact& contact = *found->second;
@@ -40,6 +42,13 @@ void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& c
     }
     return nearest != nullptr || before.impulse.isZero(0.0);
   });
+}
+
+/// Adds them at any distance.
+template <typename Contact>
+void add_earlier_impulses(std::vector<Contact>& earlier, std::vector<Contact>& contacts) {
+  add_earlier_impulses(earlier, contacts,
+                       [](const Contact&) { return std::numeric_limits<double>::infinity(); });
 }
 
 }  // namespace firstcontact::detail

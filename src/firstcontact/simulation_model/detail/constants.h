@@ -304,6 +304,9 @@ inline constexpr double kEnergyOfTurning = 1e-4;
 /// distance. Smaller: plans become shorter where contacts are right to second order.
 inline constexpr double kEnergyOfContacts = 1e-3;
 inline constexpr double kLiftOfContacts = 0.1;
+/// [-]  Impulses of a plan are reported at a later contact of the step that is nearer than this, by
+/// the smaller reach of both bodies. Larger: their moments are wrong where a contact jumps.
+inline constexpr double kCarriedWithin = 0.1;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
 /// energy. Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTied = 1e-3;
