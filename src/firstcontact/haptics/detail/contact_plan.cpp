@@ -199,8 +199,11 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_round(
     found = plan_within_turn(ways);
   }
   last_round_.keep(poses_, touches_, found.displacements);
-  found.damping = damping_.part_of(found.displacements, frames_, tools(),
-                                   cycle_.rounds > 1 || are_targets_still_);
+  // Without friction a tool does not creep, and most plans that turn back do so at new contacts.
+  if (std::ranges::any_of(planned_, [](const auto& touch) { return touch.friction > 0.0; })) {
+    found.damping = damping_.part_of(found.displacements, frames_, tools(),
+                                     cycle_.rounds > 1 || are_targets_still_);
+  }
   found.is_shortened = found.is_shortened || found.damping < 1.0;
   return found;
 }
