@@ -131,11 +131,9 @@ std::string HapticLive::picture(const ForceTick& tick, const std::vector<RunDevi
   std::string text = "{\"tools\":[";
   for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
     const ToolTick& tool = tick.tools[k];
-    const double scale = setup_.options.mappings[k].scale;  // The device feels so much more.
     text += fmt::format(R"({}{{"target":[{}],"force":[{}],"torque":[{}],"links":[{}]}})",
-                        k == 0 ? "" : ",", numbers(tool.target),
-                        numbers(Eigen::Vector3d(scale * tool.force_W)), numbers(tool.torque_W),
-                        links_json(devices, setup_.bodies[k]));
+                        k == 0 ? "" : ",", numbers(tool.target), numbers(tool.device_force_W()),
+                        numbers(tool.torque_W), links_json(devices, setup_.bodies[k]));
   }
   text += "]," + mouse_json(tick);
   text += "\"bodies\":[";

@@ -1,5 +1,6 @@
 // Forces of the force loop: their sizes, ramps and limits.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -280,6 +281,37 @@ TEST(ForceLoop, ScalesSoThatWorkIsTheSame) {
   EXPECT_NEAR(tick.target.position.z(), 0.03 - 5.0 * 0.0022, 1e-12);
   EXPECT_NEAR(tick.command.force_D.x(), -5.0 * tick.force_W.z(), 1e-9);
   EXPECT_GT(tick.force_W.z(), 0.5);
+  EXPECT_LT((tick.device_force_W() - quarter * tick.command.force_D).norm(), 1e-9);
+}
+
+TEST(ForceLoop, RefusesAStiffnessThatWouldFeelRoundedCoordinates) {
+  HapticScene scene = cube_on_floor();
+  scene.tools[0].coupling.stiffness = 1e20;
+  EXPECT_THROW(HapticSession{scene}, std::invalid_argument);
+  scene.tools[0].coupling = {.stiffness = 1000.0, .angular_stiffness = 1e18};
+  EXPECT_THROW(HapticSession{scene}, std::invalid_argument);
+}
+
+// A cube of some nanometres, pressed by a tenth of its size: the hand feels 3 N at any size.
+TEST(ForceLoop, FeelsAToolOfAnySize) {
+  for (const double size : {0.03, 3e-6, 3e-7, 3e-8, 5e-9}) {
+    HapticScene scene;
+    scene.tools = {tool_at("cube", make_box({size, size, size}), {0.0, 0.0, size})};
+    scene.bodies = {
+        body_at("plate", make_box({20.0 * size, 20.0 * size, size}), {0.0, 0.0, -0.5 * size})};
+    const double scale = size / 0.03;
+    scene.tools[0].coupling = {.stiffness = 1000.0 / (scale * scale), .angular_stiffness = 1.0};
+    HapticSession session(scene, {.mappings = {{.scale = scale}}});
+    ToolTick tick;
+    for (int k = 0; k < 4000; ++k) {
+      DeviceState hand = handle_at({0.0, 0.0, -0.018 * std::min(1.0, k / 1000.0)});
+      hand.time_ns = session.time_ns();
+      hand.sequence = static_cast<std::uint64_t>(k + 1);
+      tick = session.step(std::array{hand}).tools[0];
+    }
+    EXPECT_NEAR(tick.device_force_W().z(), 3.0, 0.02) << size;
+    EXPECT_EQ(tick.faults, 0U) << size;
+  }
 }
 
 TEST(ForceLoop, RateDevicesLeadByLittle) {

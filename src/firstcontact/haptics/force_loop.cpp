@@ -173,6 +173,7 @@ class ForceLoop::Implementation {
       felt.R_DW = mapping.R_WD.conjugate();
       tools_.push_back(std::move(felt));
       tick_.tools[k].target = start;
+      tick_.tools[k].scale = mapping.scale;
       tick_.tools[k].centre = detail::centre_at(start, tool.p_BC);
     }
   }

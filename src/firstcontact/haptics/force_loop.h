@@ -73,8 +73,10 @@ struct HapticLimits {
 /// The options of a force loop.
 struct ForceLoopOptions {
   HapticLimits limits = {};
-  double tolerance = 1e-9;  ///< [m]  Tolerance of the projection; > 0.
-  int pivots = 64;          ///< Most pivots of the projection; > 0.
+  /// [m]  Tolerance of the projection; > 0. Where the widest gap of the contacts is below
+  /// 1000 times this, a thousandth of the gap.
+  double tolerance = 1e-9;
+  int pivots = 64;  ///< Most pivots of the projection; > 0.
 };
 
 /// A reason why a force is not that of the spring. Bits of ToolTick::faults.
@@ -101,8 +103,9 @@ struct ToolTick {
   DeviceState device;
   Pose target;                                         ///< The pose X_WB that the device wants.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< [m]  Centre of the tool there, world.
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    At that centre.
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();   ///< [N]    Of the spring, at that centre.
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();  ///< [N m]  About that centre.
+  double scale = 1.0;  ///< [-]  DeviceMapping::scale: the device feels this times the force.
   /// The force and the torque for the device, with components that it does not drive.
   ForceCommand asked = {};
   /// The same, cut to what the device drives (DeviceMapping::device).
@@ -110,6 +113,9 @@ struct ToolTick {
   std::uint32_t faults = 0;  ///< Bits of ForceFault.
   /// [-]  Values of grips in force: by the device, or by buttons.
   std::array<double, kMostGrips> grips{};
+
+  /// [N]  The force on the device, world axes.
+  [[nodiscard]] Eigen::Vector3d device_force_W() const { return scale * force_W; }
 };
 
 /// A tick of the force loop.

@@ -21,8 +21,8 @@ namespace firstcontact {
 
 /// The spring by which a device holds its god-object.
 struct HapticCoupling {
-  double stiffness = 1000.0;       ///< [N/m]  > 0
-  double angular_stiffness = 1.0;  ///< [N m/rad]  About the tool's centre; > 0.
+  double stiffness = 1000.0;       ///< [N/m]  > 0, at most 1e17
+  double angular_stiffness = 1.0;  ///< [N m/rad]  About the tool's centre; > 0, at most 1e17.
   double damping = 0.0;            ///< [N s/m]  >= 0. It costs stability; see docs/haptics.md.
 };
 

@@ -102,7 +102,7 @@ std::string haptic_tick_lines(const ForceTick& tick, std::size_t tools,
         .add(tool.device.buttons)
         .add(tool.device.X_DH)
         .add(tool.target)
-        .add(tool.force_W)
+        .add(tool.device_force_W())
         .add(tool.torque_W)
         .add(tool.command.force_D)
         .add(tool.command.torque_D)

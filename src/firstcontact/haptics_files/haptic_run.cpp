@@ -52,8 +52,8 @@ HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double
   header_.scene.simulation->contact_distance = contact_distance;
   header_.masses.assign(loaded.scene.bodies.size(), 0.0);
   header_.centres_of_mass.assign(loaded.scene.bodies.size(), Eigen::Vector3d::Zero());
-  const std::size_t tools = setup.scene.tools.size();
-  std::size_t member = tools + setup.scene.bodies.size();
+  tools_ = setup.scene.tools.size();
+  std::size_t member = tools_ + setup.scene.bodies.size();
   for (const HapticTool& tool : setup.scene.tools) {
     for (const HapticLink& link : tool.links) {
       link_bodies_.push_back(link.shape ? std::optional(bodies_[member++]) : std::nullopt);
@@ -62,9 +62,7 @@ HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double
       }
     }
   }
-  for (std::size_t k = 0; k < tools; ++k) {
-    const auto& mappings = setup.options.mappings;
-    scales_.push_back(k < mappings.size() ? mappings[k].scale : 1.0);
+  for (std::size_t k = 0; k < tools_; ++k) {
     header_.masses[bodies_[k]] = 1.0;
     header_.centres_of_mass[bodies_[k]] = setup.scene.tools[k].p_BC;
   }
@@ -74,16 +72,16 @@ std::vector<RunDevice> HapticRun::devices(const ForceTick& tick) const {
   std::array<Pose, kMostTools> targets;
   std::array<Pose, kMostHapticLinks> X_WL;
   std::array<HapticAxis, kMostHapticLinks> axes;
-  for (std::size_t k = 0; k < scales_.size(); ++k) {
+  for (std::size_t k = 0; k < tools_; ++k) {
     targets[k] = tick.tools[k].target;
   }
   links_->place(targets, std::span(tick.joint_targets).first(tick.joints), X_WL, axes);
   std::vector<RunDevice> made;
-  for (std::size_t k = 0; k < scales_.size(); ++k) {
+  for (std::size_t k = 0; k < tools_; ++k) {
     const ToolTick& tool = tick.tools[k];
     made.push_back({.body = bodies_[k],
                     .X_WB = tool.target,
-                    .force = scales_[k] * tool.force_W,
+                    .force = tool.device_force_W(),
                     .torque = tool.torque_W});
     for (std::size_t link = 0; link < link_bodies_.size(); ++link) {
       if (link_bodies_[link] && links_->nodes()[link].tool == k) {

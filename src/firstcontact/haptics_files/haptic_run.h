@@ -49,8 +49,8 @@ class FIRSTCONTACT_API HapticRun {
   std::vector<std::size_t> bodies_;
   std::shared_ptr<const detail::ToolLinks> links_;
   std::vector<std::optional<std::size_t>> link_bodies_;  // Bodies of links that have a shape.
-  std::vector<double> scales_;                           // DeviceMapping::scale of each tool.
-  double time_ = 0.0;                                    // [s]
+  std::size_t tools_ = 0;
+  double time_ = 0.0;    // [s]
   double behind_ = 0.0;  // [s]  The time that all courses have waited for tools.
   std::size_t count_ = 0;
 };

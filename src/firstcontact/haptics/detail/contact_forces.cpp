@@ -35,6 +35,7 @@ void ContactForces::take(const HapticContactSet& set) noexcept {
     island.cone.clear();
     island.count = 0;
   }
+  widest_gap_ = 0.0;
   add_contacts(set);
   add_limits();
   for (std::size_t k = 0; k < tools_; ++k) {
@@ -50,10 +51,21 @@ void ContactForces::add_contacts(const HapticContactSet& set) noexcept {
                              });
   for (std::size_t c = 0; c < count; ++c) {
     const HapticContact& contact = set.contacts[c];
+    widest_gap_ = std::max(widest_gap_, contact.gap);
     Island& island = islands_[island_of(static_cast<std::size_t>(contact.tool))];
     island.contacts[island.count++] = c;
     island.cone.add(cone_contact(contact, frames_));
   }
+}
+
+/// [m]  Computes the tolerance of a projection. Small tools have small gaps, and are pressed by as
+/// little. It is not less than the rounding of the ways to the targets.
+double ContactForces::tolerance_for(const Coordinates& wanted) const noexcept {
+  constexpr double kPartOfGap = 1e-3;
+  constexpr double kRounding = 1e-12;
+  const double farthest =
+      std::abs(*std::ranges::max_element(wanted, {}, [](double way) { return std::abs(way); }));
+  return std::min(tolerance_, std::max(kPartOfGap * widest_gap_, kRounding * farthest));
 }
 
 /// Adds the limits of joints to islands that have contacts: targets are within the limits.
@@ -103,7 +115,7 @@ void ContactForces::add_island(const HapticContactSet& set, const Coordinates& w
                                double seconds, std::size_t number, ContactForce& forces) noexcept {
   Island& island = islands_[number];
   shift_surfaces(set, seconds, island);
-  ConeProjectionResult found = island.cone.project(wanted, tolerance_, pivots_);
+  ConeProjectionResult found = island.cone.project(wanted, tolerance_for(wanted), pivots_);
   forces.pressing += found.pressing;
   forces.pivots += found.pivots;
   if (!found.is_solved && found.pressing > 0) {
@@ -125,7 +137,7 @@ bool ContactForces::presses_on(const Island& island, std::size_t coordinate,
                                const Coordinates& wanted) const noexcept {
   const bool is_joint = coordinate >= 6 * tools_;
   return island.cone.presses_on(is_joint ? coordinate : coordinate / 6 * 6, is_joint ? 1 : 6,
-                                wanted, tolerance_);
+                                wanted, tolerance_for(wanted));
 }
 
 /// Sets the force of an unsolved island to the last one that was solved, if there is one. Where no

@@ -58,6 +58,7 @@ class ContactForces {
   };
 
   void add_contacts(const HapticContactSet& set) noexcept;
+  [[nodiscard]] double tolerance_for(const Coordinates& wanted) const noexcept;
   void add_limits() noexcept;
   [[nodiscard]] std::size_t island_of(std::size_t tool) const noexcept {
     return are_coupled_ ? 0 : tool;
@@ -78,7 +79,8 @@ class ContactForces {
 
   const ToolLinks* links_;
   std::size_t tools_;
-  double tolerance_;  // [m]
+  double tolerance_;         // [m]
+  double widest_gap_ = 0.0;  // [m]  Of the set.
   int pivots_;
   ToolFrames frames_;
   std::array<double, kMostTools> look_aheads_ = {};  // [s]  Damping by stiffness.

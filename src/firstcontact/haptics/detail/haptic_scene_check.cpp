@@ -77,11 +77,11 @@ void check_haptic_scene(const HapticScene& scene) {
                    name + "its pose is not finite");
     require_haptic(tool.friction >= 0.0 && tool.friction < std::numeric_limits<double>::infinity(),
                    name + "friction must be >= 0");
-    require_haptic(tool.coupling.stiffness > 0.0 &&
-                       tool.coupling.stiffness < std::numeric_limits<double>::infinity() &&
+    constexpr double kMostStiffness = 1e17;  // [N/m, N m/rad]  More feels rounded coordinates.
+    require_haptic(tool.coupling.stiffness > 0.0 && tool.coupling.stiffness <= kMostStiffness &&
                        tool.coupling.angular_stiffness > 0.0 &&
-                       tool.coupling.angular_stiffness < std::numeric_limits<double>::infinity(),
-                   name + "stiffnesses must be > 0");
+                       tool.coupling.angular_stiffness <= kMostStiffness,
+                   name + "stiffnesses must be > 0 and at most 1e17");
     require_haptic(tool.shape.vertices_to().empty(), name + "its shape deforms");
     check_joints(tool, name);
     joints += tool.joints.size();

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kMostHapticTools = 2;
 constexpr double kMostScale = 1e6;  // [-]  As in a mapping of a device.
+// [N/m, N m/rad]  Beyond it a force is that of rounded coordinates.
+constexpr double kMostStiffness = 1e17;
 
 class HapticsReader {
  public:
@@ -83,8 +85,8 @@ class HapticsReader {
     } else {
       tool.body = body(read_.member(value, "body"), before);
     }
-    take_positive(object, "stiffness", tool.stiffness);
-    take_positive(object, "angular_stiffness", tool.angular_stiffness);
+    take_stiffness(object, "stiffness", tool.stiffness);
+    take_stiffness(object, "angular_stiffness", tool.angular_stiffness);
     take_not_negative(object, "damping", tool.damping);
     take_positive(object, "scale", tool.scale);
     if (!(tool.scale <= kMostScale)) {
@@ -180,6 +182,13 @@ class HapticsReader {
   void take_positive(const JsonObject& object, std::string_view key, double& number) const {
     if (const JsonValue* value = find(object, key)) {
       number = read_.positive(*value);
+    }
+  }
+
+  void take_stiffness(const JsonObject& object, std::string_view key, double& number) const {
+    take_positive(object, key, number);
+    if (!(number <= kMostStiffness)) {
+      read_.fail_expected("a number > 0 of at most 1e17", *find(object, key));
     }
   }
 
