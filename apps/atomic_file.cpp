@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -61,6 +63,17 @@ int own_descriptor(std::filesystem::path path) {
   return -1;
 }
 
+/// The temporary files that are there, so that a process that ends at once can remove them.
+struct Temporaries {
+  std::mutex mutex;
+  std::set<std::filesystem::path> names;
+};
+
+Temporaries& temporaries() {
+  static Temporaries all;
+  return all;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
@@ -91,12 +104,14 @@ void AtomicFile::begin_temporary() {
     errno = EACCES;  // As for a write to it, which a new file in its place would evade.
     fail("cannot write this file");
   }
+  const std::scoped_lock lock(temporaries().mutex);
   std::string name = target_.string() + ".XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) {
     fail("cannot write this file");
   }
   temporary_ = name;
+  temporaries().names.insert(temporary_);
   if (replaces) {
     // Only root may give files away; other users keep what they write.
     [[maybe_unused]] const int kept = ::fchown(descriptor_, replaced.st_uid, replaced.st_gid);
@@ -111,7 +126,14 @@ AtomicFile::~AtomicFile() {
   }
   if (!temporary_.empty()) {
     ::unlink(temporary_.c_str());
+    end_temporary();
   }
+}
+
+void AtomicFile::end_temporary() noexcept {
+  const std::scoped_lock lock(temporaries().mutex);
+  temporaries().names.erase(temporary_);
+  temporary_.clear();
 }
 
 void AtomicFile::write(std::string_view text) {
@@ -130,7 +152,14 @@ void AtomicFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
       fail("cannot give a file this name");
     }
-    temporary_.clear();
+    end_temporary();
+  }
+}
+
+void remove_temporaries() noexcept {
+  const std::scoped_lock lock(temporaries().mutex);
+  for (const std::filesystem::path& name : temporaries().names) {
+    ::unlink(name.c_str());
   }
 }
 

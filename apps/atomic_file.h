@@ -30,12 +30,16 @@ class AtomicFile {
 
  private:
   void begin_temporary();
+  void end_temporary() noexcept;
   [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // Empty where the target is written directly.
   int descriptor_ = -1;
 };
+
+/// Removes the temporary files of all files that are not committed, as the process ends at once.
+void remove_temporaries() noexcept;
 
 /// Writes one text to a file.
 void write_file(const std::filesystem::path& target, std::string_view text);

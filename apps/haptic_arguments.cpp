@@ -170,8 +170,8 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
   add_number(command, "--duration", arguments.duration, Range::positive,
              "[s] Time to run. Default: 0.1 more than the longest recording, whose last sample is "
              "held. 60 with a device in a user's hand; 10 with a simulated one");
-  add_number(command, "--latency", arguments.latency, Range::not_negative,
-             "[s] Time of one cycle of the contact loop, in virtual time");
+  add_number_between(command, "--latency", arguments.latency, 0.0, 10.0,
+                     "[s] Time of one cycle of the contact loop, in virtual time, 0 to 10");
   add_number(command, "--radius", arguments.radius, Range::positive,
              "[m] Reach of the simulated hand from the start. Default: twice the distance from the "
              "middle of the tool to its farthest point");

@@ -81,6 +81,7 @@ class HapticsRun {
 
  private:
   LoadedScene load() const {
+    require_named(outputs_of(arguments_));
     require_different(outputs_of(arguments_));
     require_no_input(outputs_of(arguments_), {arguments_.scene});
     for (const std::string& word : arguments_.devices) {

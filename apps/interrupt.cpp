@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <functional>
 
+#include "atomic_file.h"
+
 namespace firstcontact::app {
 namespace {
 
@@ -14,6 +16,7 @@ void watch(const std::stop_token& over, const sigset_t& signals, std::stop_sourc
       return;
     }
     if (!first) {
+      remove_temporaries();
       std::_Exit(128 + signal);  // The status that the shell reports for a process that a signal
                                  // ended.
     }

@@ -53,6 +53,16 @@ void add_files(std::span<const LinkGeometry> geometry, std::vector<std::filesyst
 
 }  // namespace
 
+void require_named(const std::vector<OutputFile>& outputs) {
+  for (const OutputFile& output : outputs) {
+    if (output.path == "-") {
+      throw std::invalid_argument(fmt::format(
+          "{} -: expected the name of a file; for the standard output write {} /dev/stdout",
+          output.option, output.option));
+    }
+  }
+}
+
 void require_different(const std::vector<OutputFile>& outputs) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     for (std::size_t other = 0; other < k; ++other) {

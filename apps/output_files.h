@@ -17,6 +17,11 @@ struct OutputFile {
   std::string path;    ///< Empty where the option was not given.
 };
 
+/// Refuses an output with the name `-`: it would not go to the standard output.
+///
+/// @throws std::invalid_argument that names the option
+void require_named(const std::vector<OutputFile>& outputs);
+
 /// Refuses two outputs in one file, as one answer would replace the other.
 ///
 /// @throws std::invalid_argument where two outputs are one file

@@ -13,7 +13,9 @@ import pathlib
 import re
 import signal
 import socket
+import subprocess
 import sys
+import time
 import unittest
 import urllib.error
 import urllib.request
@@ -170,6 +172,18 @@ class Haptics(tool_test.ToolTest):
         lines = ["# firstcontact recording: 1", "time_ns,sequence,x,y,z,qw,qx,qy,qz"]
         lines += [f"{time},{k},0,0,{z},1,0,0,0" for k, (time, z) in enumerate(samples)]
         self.file("hand.csv", "\n".join(lines) + "\n")
+
+    def test_gives_one_force_on_a_device_of_another_scale(self):
+        """A tool of half the scale: the peg is pressed 5 mm into the plate, which is 5 N; the hand feels half."""
+        self.file("scene.json", scene(tools=[{"body": "peg", "scale": 0.5}]))
+        self.recording(*((1_000_000 * k, -min(0.05, 1e-4 * k)) for k in range(1000)))
+        result = self.haptics("--device", "hand.csv", "--ticks", "ticks.csv", "--cycles", "cycles.csv")
+        self.assertEqual(result.returncode, 0, result)
+        ticks, cycles = ([*csv.DictReader((self.folder / name).read_text().splitlines())]
+                         for name in ("ticks.csv", "cycles.csv"))
+        forces = self.assert_devices_are_those_of_ticks(ticks, cycles)
+        self.assertAlmostEqual(forces[-1][2], 2.5, delta=0.05)
+        self.assertAlmostEqual(float(ticks[-1]["force_z"]), float(ticks[-1]["command_fz"]), delta=1e-9)
 
     def test_plays_the_last_sample_of_a_recording(self):
         self.file("scene.json", scene())
@@ -429,6 +443,20 @@ class Haptics(tool_test.ToolTest):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 3)
 
+    def test_leaves_no_temporary_file_where_it_is_ended_twice(self):
+        self.file("scene.json", scene())
+        process = subprocess.Popen(
+            [tool_test.TOOL, "haptics", "scene.json", "--device", "simulated", "--duration", "3000", "-o", "run.jsonl",
+             "--ticks", "ticks.csv", "--cycles", "cycles.csv"], cwd=self.folder, stdout=subprocess.DEVNULL)
+        while not any(self.folder.glob("cycles.csv.*")):
+            time.sleep(0.01)
+        for _ in range(50):  # The first one asks it to end, the second one ends it at once.
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.001)
+        process.wait(timeout=60)
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.suffix not in (".json", ".jsonl", ".csv")],
+                         [])
+
     def test_shows_nothing_live_in_virtual_time(self):
         self.file("scene.json", scene())
         self.assert_writes_nothing(self.haptics("--device", "simulated", "--live", "--latency", "0.01"),
@@ -507,6 +535,11 @@ class Haptics(tool_test.ToolTest):
         self.file("scene.json", scene(tools=[{"body": "peg", "scale": 1e7}]))
         self.assert_writes_nothing(self.haptics(*device), "scene.json:", "haptics.tools[0].scale", "at most 1e6")
         self.file("scene.json", scene())
+        self.assert_writes_nothing(self.haptics(*device, "--latency", "11"), "--latency", "10")
+        for option in ("--ticks", "--cycles", "--plot", "--html"):
+            self.assert_writes_nothing(self.haptics(*device, option, "-"), option, "/dev/stdout")
+        self.assert_writes_nothing(self.haptics(*device, out="-"), "-o", "/dev/stdout")
+        self.assertFalse((self.folder / "-").exists())
         self.file("broken.csv", "no recording\n")
         self.assert_writes_nothing(self.haptics("--device", "broken.csv"), "broken.csv")
 

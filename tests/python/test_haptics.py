@@ -84,6 +84,30 @@ def test_names_the_pose_that_is_wrong():
         session.step(["up"])
 
 
+def test_names_the_buttons_and_grips_that_are_wrong():
+    session = fc.HapticSession(SCENE)
+    for buttons in (["a"], [-1], [0.5], 3):
+        with pytest.raises(TypeError, match="^step: buttons: expected a whole number"):
+            session.step([fc.Pose()], buttons=buttons)
+    for grips in ([["a"]], [0.5], "open"):
+        with pytest.raises(TypeError, match="^step: grips: expected a list of numbers"):
+            session.step([fc.Pose()], grips=grips)
+    with pytest.raises(ValueError, match="^step: buttons: "):
+        session.step([fc.Pose()], buttons=[0, 0])
+    with pytest.raises(ValueError, match="^step: grips: tool 0 has 0 grips, got 1"):
+        session.step([fc.Pose()], grips=[[0.5]])
+    session.step([fc.Pose()], grips=[[]])
+
+
+def test_gives_the_force_on_a_device_of_another_scale():
+    tools = [{**SCENE["haptics"]["tools"][0], "scale": 0.5}]
+    session = fc.HapticSession({**SCENE, "haptics": {**SCENE["haptics"], "tools": tools}})
+    tick = press(session, 0.024, ticks=2001)
+    assert tick.forces[0, 2] > 0.5
+    assert np.allclose(tick.forces_world, tick.forces, atol=1e-9)
+    assert np.array_equal(session.cycle.devices.forces, tick.forces_world)
+
+
 def test_feels_nothing_by_a_lost_device_or_a_clutch():
     session = fc.HapticSession(SCENE)
     assert press(session, 0.012).forces[0, 2] > 1
@@ -160,5 +184,6 @@ def test_moves_fingers_by_grips():
     assert session.joints[0] == pytest.approx(0.015, abs=2e-5)
     assert tick.joint_efforts[0] == pytest.approx(1000 * (0.015 - 0.035), rel=5e-3)
     assert tick.grip_efforts[0][0] == pytest.approx(0.035 * tick.joint_efforts[0])
-    with pytest.raises(ValueError, match="tool 0 has 1 grips, got 2 values"):
-        session.step(down, grips=[[0.0, 0.0]])
+    for values in ([], [0.0, 0.0]):
+        with pytest.raises(ValueError, match=f"tool 0 has 1 grips, got {len(values)} values"):
+            session.step(down, grips=[values])

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -90,10 +91,11 @@ struct FeltTick {
   std::size_t tools = 0;
   std::array<std::size_t, kMostTools> grips = {};
 
-  [[nodiscard]] py::array rows(Eigen::Vector3d ToolTick::*what) const {
+  template <class What>
+  [[nodiscard]] py::array rows(What what) const {
     std::vector<Eigen::Vector3d> found;
     for (std::size_t k = 0; k < tools; ++k) {
-      found.push_back(tick.tools[k].*what);
+      found.push_back(std::invoke(what, tick.tools[k]));
     }
     return owning(std::move(found));
   }
@@ -138,6 +140,18 @@ struct FeltTick {
   }
 };
 
+/// Converts an argument of step().
+///
+/// @throws py::type_error with the text `expected`, which names the argument
+template <class T>
+T argument(const py::object& value, const char* expected) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(expected);
+  }
+}
+
 /// A session in virtual time, with its record. One thread at a time may use it.
 class FeltSession {
  public:
@@ -146,15 +160,19 @@ class FeltSession {
         session_(setup_.scene, setup_.options),
         run_(loaded, setup_, session_.contacts().contact_distance()) {}
 
-  FeltTick step(const py::object& handles, const std::vector<std::uint32_t>& buttons,
-                const std::vector<std::vector<double>>& grips) {
+  FeltTick step(const py::object& handles, const py::object& all_buttons,
+                const py::object& all_grips) {
     require_idle(is_busy_, "HapticSession");
+    const auto buttons = argument<std::vector<std::uint32_t>>(
+        all_buttons, "step: buttons: expected a whole number for each tool, its bits the buttons");
+    const auto grips = argument<std::vector<std::vector<double>>>(
+        all_grips, "step: grips: expected a list of numbers for each tool");
     const std::vector<std::optional<Pose>> poses = poses_from(handles);
     if (!buttons.empty() && buttons.size() != poses.size()) {
-      throw std::invalid_argument("step: expected as many buttons as poses, or none");
+      throw std::invalid_argument("step: buttons: expected as many as poses, or none");
     }
     if (!grips.empty() && grips.size() != poses.size()) {
-      throw std::invalid_argument("step: expected grips of each tool, or none");
+      throw std::invalid_argument("step: grips: expected those of each tool, or none");
     }
     std::vector<DeviceState> states;
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -164,7 +182,9 @@ class FeltSession {
       state.status = poses[k] ? DeviceStatus::live : DeviceStatus::lost;
       state.X_DH = poses[k].value_or(Pose{});
       state.buttons = buttons.empty() ? 0U : buttons[k];
-      take_grips(grips.empty() ? std::vector<double>() : grips[k], k, state);
+      if (!grips.empty()) {
+        take_grips(grips[k], k, state);
+      }
       states.push_back(state);
     }
     const Busy busy(is_busy_);
@@ -238,10 +258,17 @@ class FeltSession {
     return tool < setup_.options.mappings.size() ? setup_.options.mappings[tool].grips.size() : 0;
   }
 
+  /// Whether no grip of a tool follows a value of its device.
+  [[nodiscard]] bool needs_no_grips(std::size_t tool) const {
+    return grips_of(tool) == 0 ||
+           std::ranges::none_of(setup_.options.mappings[tool].grips,
+                                [](const GripMapping& grip) { return grip.button < 0; });
+  }
+
   /// Takes the values of a tool's grips. Grips that buttons move have none that are read.
   void take_grips(const std::vector<double>& values, std::size_t tool, DeviceState& state) const {
-    if (!values.empty() && values.size() != grips_of(tool)) {
-      throw std::invalid_argument("step: tool " + std::to_string(tool) + " has " +
+    if (values.size() != grips_of(tool) && !(values.empty() && needs_no_grips(tool))) {
+      throw std::invalid_argument("step: grips: tool " + std::to_string(tool) + " has " +
                                   std::to_string(grips_of(tool)) + " grips, got " +
                                   std::to_string(values.size()) + " values");
     }
@@ -291,7 +318,7 @@ void bind_tick(py::module_& m) {
           "torques", [](const FeltTick& t) { return t.command(&ForceCommand::torque_D); },
           "[N m] n×3, torque about each handle, in its own axes.")
       .def_property_readonly(
-          "forces_world", [](const FeltTick& t) { return t.rows(&ToolTick::force_W); },
+          "forces_world", [](const FeltTick& t) { return t.rows(&ToolTick::device_force_W); },
           "[N] n×3, force on each device at the centre of its tool, world axes.")
       .def_property_readonly(
           "torques_world", [](const FeltTick& t) { return t.rows(&ToolTick::torque_W); },
@@ -335,9 +362,8 @@ back. A session is the same on every run. One thread at a time may use it.)")
           py::arg("latency") = 0.0,
           R"(scene: as for load_scene. duration: [s] of the record; moving bodies go on for so long.
 latency: [s] duration of a cycle of the contact loop.)")
-      .def("step", &FeltSession::step, py::arg("poses"),
-           py::arg("buttons") = std::vector<std::uint32_t>{},
-           py::arg("grips") = std::vector<std::vector<double>>{},
+      .def("step", &FeltSession::step, py::arg("poses"), py::arg("buttons") = py::tuple(),
+           py::arg("grips") = py::tuple(),
            R"(Makes the next tick of the force loop; returns a HapticTick.
 
 poses: of the handles, a Pose for each tool; None for a lost device. Or n×7 numbers: [m] position
