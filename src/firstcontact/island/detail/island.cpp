@@ -22,6 +22,10 @@
 namespace firstcontact::detail {
 namespace {
 
+/// [-]  Impulses of a plan are reported at a later contact of the step that is nearer than this, by
+/// the smaller reach of both bodies. Larger: their moments are wrong where a contact jumps.
+constexpr double kCarriedWithin = 0.1;
+
 class Island {
  public:
   Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace,

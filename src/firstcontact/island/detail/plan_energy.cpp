@@ -19,6 +19,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// [-]  Greatest work of contacts in a step, by the kinetic energy, and lift in it, by the contact
+/// distance. Smaller: plans become shorter where contacts are right to second order.
+constexpr double kEnergyOfContacts = 1e-3;
+constexpr double kLiftOfContacts = 0.1;
+
 /// Energies of an island.
 struct Energy {
   double kinetic = 0.0;    // [J]

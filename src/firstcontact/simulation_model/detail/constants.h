@@ -300,13 +300,6 @@ inline constexpr double kTurnOfEnergy = 0.05;
 /// [-]  Greatest gain of energy in a step of bodies in contact that turn, by their kinetic energy.
 /// Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTurning = 1e-4;
-/// [-]  Greatest work of contacts in a step, by the kinetic energy, and lift in it, by the contact
-/// distance. Smaller: plans become shorter where contacts are right to second order.
-inline constexpr double kEnergyOfContacts = 1e-3;
-inline constexpr double kLiftOfContacts = 0.1;
-/// [-]  Impulses of a plan are reported at a later contact of the step that is nearer than this, by
-/// the smaller reach of both bodies. Larger: their moments are wrong where a contact jumps.
-inline constexpr double kCarriedWithin = 0.1;
 /// [-]  Greatest change in a step of the energy of bodies that joints alone hold, by their kinetic
 /// energy. Where it would be exceeded, plans become shorter.
 inline constexpr double kEnergyOfTied = 1e-3;
