@@ -366,6 +366,10 @@ TEST(RunFile, SaysWhereItIsWrong) {
   EXPECT_EQ(after("\"firstcontact_run\":1", "\"firstcontact_run\":2"),
             "run.jsonl:1: expected the header of a run, an object with \"firstcontact_run\": 1");
   EXPECT_EQ(after("\"sphere\"", "\"spere\"").rfind("run.jsonl:1: scene: bodies[0].shape", 0), 0u);
+  EXPECT_EQ(
+      after("\"radius\":0.1", "\"radius\":0.2"),
+      "run.jsonl:1: resolved_digest: expected the digest of \"scene\", which was edited; make "
+      "the run again");
   EXPECT_EQ(after("\"masses\":[", "\"masses\":[-1,"),
             "run.jsonl:1: masses: expected an array of 2");
   EXPECT_EQ(after("\"step\":2", "\"step\":3"), "run.jsonl:3: step: expected 2, the steps in order");

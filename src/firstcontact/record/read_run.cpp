@@ -153,10 +153,6 @@ RunHeader read_header(const std::string& text, const std::string& path,
                     {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
                      "masses", "centres_of_mass"},
                     {"kind", "resolved_digest"});
-  if (const auto digest = root.find("resolved_digest");
-      digest != root.end() && line.string(*digest) != detail::digest_of_scene_in(text)) {
-    line.fail(*digest, "the digest of \"scene\", which was edited; make the run again");
-  }
   RunHeader header;
   if (const auto kind = root.find("kind"); kind != root.end()) {
     if (*kind != "haptics") {
@@ -165,6 +161,10 @@ RunHeader read_header(const std::string& text, const std::string& path,
     header.kind = RunKind::haptics;
   }
   header.scene = parse_embedded_scene(text, path, 1, options);
+  if (const auto digest = root.find("resolved_digest");
+      digest != root.end() && line.string(*digest) != detail::digest_of_scene_in(text)) {
+    line.fail(*digest, "the digest of \"scene\", which was edited; make the run again");
+  }
   header.version = line.string(root["version"]);
   header.scene.text_digest = line.string(root["scene_digest"]);
   header.input_digest = line.string(root["input_digest"]);
