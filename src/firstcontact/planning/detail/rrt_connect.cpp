@@ -14,8 +14,8 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kTriesToLeave = 24;  // Number of iterations before pushes, and before a tree
-                                           // is stuck.
+constexpr std::size_t kTriesToLeave = 8;   // Number of edges before pushes, and before a tree is
+                                           // stuck.
 constexpr std::size_t kReportEvery = 256;  // Number of iterations.
 
 /// [-]  The domain of a place with a blocked edge, in ranges.
@@ -57,13 +57,14 @@ class Connect {
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
-      for (std::size_t tree = 0; tree < 2 && iteration == kTriesToLeave; ++tree) {
-        if (const auto met = leave(tree)) {
+      if (tries_[grows] >= kTriesToLeave && !has_left_[grows]) {
+        has_left_[grows] = true;
+        if (const auto met = leave(grows)) {
           return joined(*met);
         }
       }
       const bool is_stuck =
-          iteration >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
+          tries_[grows] >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
       contact_.next(is_stuck);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
@@ -101,6 +102,7 @@ class Connect {
     }
     const Configuration target =
         length > range_ ? work_.space().interpolate(tree[near], sample, range_ / length) : sample;
+    ++tries_[grows];
     if (work_.is_free(tree[near], target)) {
       return meet(grows, tree.add(target, near));
     }
@@ -247,6 +249,8 @@ class Connect {
   double domain_;
   std::array<PlanTree, 2> trees_;
   std::array<std::size_t, 2> roots_ = {};
+  std::array<std::size_t, 2> tries_ = {};  // Number of edges from each tree to samples.
+  std::array<bool, 2> has_left_ = {};
   std::array<std::size_t, 2> pushed_ = {};  // Number of pushes from the roots of each tree.
   ContactGrowth contact_;
 };
