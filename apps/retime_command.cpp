@@ -109,12 +109,13 @@ std::vector<RateLimits> rate_limits(const Arguments& arguments, const RetimingPa
 /// Writes the lines of the answer.
 class Report {
  public:
-  Report(const Arguments& arguments, const RetimingPath& input, const RetimingScene& where,
+  Report(const Arguments& arguments, const RetimingPath& input, const LoadedRetimingScene& scene,
          const RetimedMotion& retimed)
       : arguments_(arguments),
         input_(input),
-        where_(where),
-        model_(joined_model(where)),
+        warnings_(scene.loaded.warnings),
+        where_(scene.where),
+        model_(joined_model(where_)),
         retimed_(retimed) {}
 
   std::string proven(const ExecutedProof& proof) {
@@ -243,10 +244,14 @@ class Report {
     if (input_.is_approximate) {
       line("warning", "the path is approximate: it ends before its goal");
     }
+    for (const std::string& warning : warnings_) {
+      line("warning", visible(warning));
+    }
   }
 
   const Arguments& arguments_;
   const RetimingPath& input_;
+  const std::vector<std::string>& warnings_;
   const RetimingScene& where_;
   const RobotModel model_;  // Model of all robots that move.
   const RetimedMotion& retimed_;
@@ -291,7 +296,7 @@ ExitStatus retime_path(const Arguments& arguments) {
     options.proof.threads = arguments.threads;
     options.proof.budget.stop = interrupt.token();
     const RetimedMotion retimed = retime(input.path, limits, scene.where, options);
-    Report report(arguments, input, scene.where, retimed);
+    Report report(arguments, input, scene, retimed);
     if (!retimed.proof.is_proven()) {
       say(report.refused(retimed.proof));
       flush_stdout();
