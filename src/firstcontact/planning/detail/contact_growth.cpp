@@ -165,14 +165,8 @@ std::optional<std::size_t> ContactGrowth::push(PlanTree& tree) {
         random_.below(2) == 0 ? marked.back() : marked[random_.below(marked.size())];
     ++work_.counts().contacts.pushes;
     const Configuration begin = tree[from];
-    return take(tree, from, steering().push(begin, direction(begin)));
+    return take(tree, from, steering().push(begin, steering().direction(random_)));
   });
-}
-
-Eigen::VectorXd ContactGrowth::direction(const Configuration& from) {
-  const auto ways = random_.below(2) == 0 ? ways_out(from) : decltype(ways_out(from))();
-  return ways.empty() ? steering().direction(random_)
-                      : ways[random_.below(ways.size())].at(random_.below(2));
 }
 
 void ContactGrowth::find_passage() {

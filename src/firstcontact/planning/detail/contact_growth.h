@@ -84,8 +84,6 @@ class ContactGrowth {
   [[nodiscard]] ContactSteering& steering();
   std::optional<std::size_t> take(PlanTree& tree, std::size_t from, const ContactWay& way);
 
-  /// A direction for a push: a random one, or one in which the contacts are loose.
-  [[nodiscard]] Eigen::VectorXd direction(const Configuration& from);
   void find_passage();
   std::optional<Followed> go(PlanTree& tree, std::size_t from, const Configuration& target);
 

@@ -57,14 +57,16 @@ class Connect {
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
-      if (tries_[grows] >= kTriesToLeave && !has_left_[grows]) {
-        has_left_[grows] = true;
-        if (const auto met = leave(grows)) {
-          return joined(*met);
+      if (tries_ >= kTriesToLeave && !has_left_) {
+        has_left_ = true;
+        for (std::size_t tree = 0; tree < 2; ++tree) {
+          if (const auto met = leave(tree)) {
+            return joined(*met);
+          }
         }
       }
       const bool is_stuck =
-          tries_[grows] >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
+          tries_ >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
       contact_.next(is_stuck);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
@@ -102,7 +104,7 @@ class Connect {
     }
     const Configuration target =
         length > range_ ? work_.space().interpolate(tree[near], sample, range_ / length) : sample;
-    ++tries_[grows];
+    ++tries_;
     if (work_.is_free(tree[near], target)) {
       return meet(grows, tree.add(target, near));
     }
@@ -249,8 +251,8 @@ class Connect {
   double domain_;
   std::array<PlanTree, 2> trees_;
   std::array<std::size_t, 2> roots_ = {};
-  std::array<std::size_t, 2> tries_ = {};  // Number of edges from each tree to samples.
-  std::array<bool, 2> has_left_ = {};
+  std::size_t tries_ = 0;  // Number of edges to samples.
+  bool has_left_ = false;
   std::array<std::size_t, 2> pushed_ = {};  // Number of pushes from the roots of each tree.
   ContactGrowth contact_;
 };
