@@ -120,10 +120,11 @@ TEST(ReadSrdf, HasPosesOfFloatingJoints) {
       {.name = "base", .type = JointType::floating, .parent = "world", .child = "hull"});
   const RobotModel drone(description);
   const auto state = [&](const std::string& value) {
-    return parse_srdf("<robot name='drone'><group name='g'><joint name='base'/></group>"
-                      "<group_state name='s' group='g'><joint name='base' value='" +
-                          value + "'/></group_state></robot>",
-                      "f.srdf", drone);
+    return parse_srdf(
+        "<robot name='drone'><group name='g'><joint name='base'/></group>"
+        "<group_state name='s' group='g'><joint name='base' value='" +
+            value + "'/></group_state></robot>",
+        "f.srdf", drone);
   };
   EXPECT_EQ(state("1 2 3 0.6 0 0 0.8").states.at(0).values.at(0).coordinates,
             (std::vector<double>{1, 2, 3, 0.6, 0, 0, 0.8}));

@@ -68,8 +68,8 @@ class FIRSTCONTACT_API Simulator {
   /// Where it throws, nothing is changed.
   ///
   /// @throws std::invalid_argument if the body is not free or a link, a number is not finite or
-  ///         beyond 1e60, the quaternion is zero, the body would meet another one, or a tie would be
-  ///         torn
+  ///         beyond 1e60, the quaternion is zero, the body would meet another one, or a tie would
+  ///         be torn
   void set_state(std::size_t body, const RigidState& state);
 
   /// The states of all robots that have dynamics.

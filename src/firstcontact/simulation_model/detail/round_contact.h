@@ -16,9 +16,9 @@ namespace firstcontact::detail {
 /// near to the point that is nearest to the other body. That holds for contacts on the sides of
 /// cylinders, on rims that stand on a face, and on rims along a line parallel to their axis.
 ///
-/// Where the axis of a cylinder crosses an edge or another axis, the points are where both lines are
-/// nearest. Beyond the end of an edge its corner becomes the feature. Beyond the end of a cylinder
-/// the contact stays as it is.
+/// Where the axis of a cylinder crosses an edge or another axis, the points are where both lines
+/// are nearest. Beyond the end of an edge its corner becomes the feature. Beyond the end of a
+/// cylinder the contact stays as it is.
 ///
 /// A circle is outside of an outer polygon, and inside of a hole, so the distance becomes smaller.
 /// The contact stays as it is where the distance becomes larger. It also stays where the distance
