@@ -13,6 +13,7 @@
 
 #include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/detail/resting_position.h>
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
@@ -36,22 +37,13 @@ std::size_t robot_named(const Scene& scene, const std::string& name) {
   throw std::invalid_argument("expected a robot of the scene, got " + detail::in_quotes(name));
 }
 
-/// [rad or m]  The place of a coordinate at rest in the scene.
-double position_in_scene(const SceneRobot& robot, const std::string& name) {
-  const JointCoordinate which = find_coordinate(robot.model, name);
-  const auto found = robot.state.find(coordinate_name(robot.model, which));
-  return found != robot.state.end()
-             ? found->second
-             : default_position(robot.model.joints()[which.joint], which.index);
-}
-
 /// Requires that a planned path begins where its scene has the robots.
 void require_start(const RetimingPath& path) {
   for (std::size_t k = 0; k < path.path.joint_names.size(); ++k) {
     const std::string& joint = path.path.joint_names[k];
     const auto [which, name] = detail::split_robot_name(path.scene, path.robots, joint);
     if (path.path.waypoints.front()[k] !=
-        position_in_scene(path.scene.robots[path.robots[which]], name)) {
+        detail::resting_position(path.scene.robots[path.robots[which]], name)) {
       throw std::invalid_argument("the path does not begin where its scene has joint " +
                                   detail::in_quotes(joint) + "; plan it again");
     }

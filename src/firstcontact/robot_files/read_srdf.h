@@ -27,8 +27,8 @@ struct RobotGroup {
 struct GroupState {
   struct JointValue {
     std::size_t joint = 0;
-    /// [rad or m]  As many numbers as the joint has coordinates. Of a floating joint seven, in
-    /// MoveIt's order: its position, then the quaternion x, y, z, w.
+    /// [rad or m]  As many numbers as the joint has coordinates. A floating joint has seven: its
+    /// position, then the quaternion x, y, z, w, as MoveIt orders them.
     std::vector<double> coordinates;
   };
   std::string name;

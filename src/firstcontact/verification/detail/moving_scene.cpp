@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/scene/detail/resting_position.h>
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/shape_cache.h>
@@ -49,15 +50,6 @@ void require_limits(const RobotModel& model, std::size_t joint, double position)
       require_limits(model, other, mimic->multiplier * position + mimic->offset);
     }
   }
-}
-
-/// [rad or m]  The position of a robot's joint at rest in the scene.
-double position_in_scene(const SceneRobot& robot, const std::string& name) {
-  const JointCoordinate which = find_coordinate(robot.model, name);
-  const auto found = robot.state.find(coordinate_name(robot.model, which));
-  return found != robot.state.end()
-             ? found->second
-             : default_position(robot.model.joints()[which.joint], which.index);
 }
 
 LoadedScene load(const PlannedPath& path) {
@@ -251,7 +243,7 @@ void MovingScene::move_joint(std::size_t column, SceneRobot& robot, std::size_t 
   is_rotation_[column] =
       robot.model.joints()[which.joint].type == JointType::floating && which.index >= 3;
   require_turning(robot.model, name, path_.turnings.at(column));
-  if (path_.waypoints.front().at(column) != position_in_scene(robot, name)) {
+  if (path_.waypoints.front().at(column) != resting_position(robot, name)) {
     throw BrokenPath("The path does not begin where its scene has joint " +
                      in_quotes(path_.joints[column]) + ".");
   }
