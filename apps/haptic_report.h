@@ -10,9 +10,9 @@
 #include <string>
 
 #include <firstcontact/haptic_devices/device.h>
+#include <firstcontact/haptic_sessions/wall_session.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/wall_session.h>
 
 namespace firstcontact::app {
 

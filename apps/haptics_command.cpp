@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include <firstcontact/haptic_devices/browser_device.h>
-#include <firstcontact/haptics/wall_session.h>
+#include <firstcontact/haptic_sessions/wall_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>

@@ -29,11 +29,11 @@
 
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
+#include <firstcontact/haptic_sessions/detail/target_lead.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
+#include <firstcontact/haptic_sessions/timing_histogram.h>
 #include <firstcontact/haptics/contact_loop.h>
-#include <firstcontact/haptics/detail/target_lead.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/haptic_session.h>
-#include <firstcontact/haptics/timing_histogram.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>

@@ -25,7 +25,7 @@
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 namespace firstcontact {
 namespace {

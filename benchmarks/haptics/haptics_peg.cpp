@@ -33,7 +33,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/haptic_devices/simulated_operator.h>
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>

@@ -31,8 +31,8 @@ set(public_headers
   firstcontact/query/closest_approach.h
   firstcontact/query/distance.h
   firstcontact/query/first_contact.h
-  firstcontact/haptics/haptic_session.h
-  firstcontact/haptics/wall_session.h
+  firstcontact/haptic_sessions/haptic_session.h
+  firstcontact/haptic_sessions/wall_session.h
   firstcontact/many_bodies/many_bodies.h
   firstcontact/mesh_files/read_mesh.h
   firstcontact/mesh_files/read_points.h
@@ -107,7 +107,7 @@ set(supporting_headers
   firstcontact/haptics/contact_set.h
   firstcontact/haptics/force_loop.h
   firstcontact/haptics/haptic_scene.h
-  firstcontact/haptics/timing_histogram.h
+  firstcontact/haptic_sessions/timing_histogram.h
   firstcontact/many_bodies/body_set.h
   firstcontact/many_bodies/pair_rules.h
   firstcontact/many_bodies/scene_result.h

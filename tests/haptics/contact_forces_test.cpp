@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/haptic_session.h>
 
 #include "haptics/grip_scenes.h"
 #include "haptics/haptic_scenes.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/haptic_devices/simulated_operator.h>
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 #include "haptics/haptic_scenes.h"
 

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/haptic_session.h>
 
 #include "haptics/haptic_scenes.h"
 

@@ -13,8 +13,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics/contact_loop.h>
-#include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/query/distance.h>
 
 #include "haptics/grip_scenes.h"

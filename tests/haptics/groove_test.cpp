@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 #include "haptics/haptic_scenes.h"
 

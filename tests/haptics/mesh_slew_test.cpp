@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 
 #include "haptics/haptic_scenes.h"

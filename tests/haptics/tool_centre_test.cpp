@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 #include "haptics/grip_scenes.h"
 #include "haptics/haptic_scenes.h"

@@ -16,7 +16,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>

@@ -20,8 +20,8 @@
 #include <unistd.h>
 
 #include <firstcontact/haptic_devices/simulated_operator.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics/detail/tool_links.h>
-#include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>

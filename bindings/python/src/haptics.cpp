@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 #include <algorithm>
 #include <array>

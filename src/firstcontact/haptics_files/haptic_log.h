@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <string>
 
+#include <firstcontact/haptic_sessions/haptic_session.h>
+#include <firstcontact/haptic_sessions/wall_session.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/haptic_session.h>
-#include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {

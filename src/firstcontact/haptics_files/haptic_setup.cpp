@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/mesh.h>
-#include <firstcontact/haptics/detail/session_periods.h>
+#include <firstcontact/haptic_sessions/detail/session_periods.h>
 #include <firstcontact/haptics_files/detail/rigid_robots.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/haptic_sessions/haptic_session.h>
 #include <firstcontact/haptics/haptic_scene.h>
-#include <firstcontact/haptics/haptic_session.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {

@@ -12,9 +12,9 @@
 #include <stop_token>
 
 #include <firstcontact/haptic_devices/device.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
+#include <firstcontact/haptic_sessions/timing_histogram.h>
 #include <firstcontact/haptics/contact_set.h>
-#include <firstcontact/haptics/haptic_session.h>
-#include <firstcontact/haptics/timing_histogram.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {

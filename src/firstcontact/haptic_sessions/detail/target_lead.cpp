@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/detail/target_lead.h>
+#include <firstcontact/haptic_sessions/detail/target_lead.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/wall_session.h>
+#include <firstcontact/haptic_sessions/wall_session.h>
 
 #include <ctime>
 
@@ -19,10 +19,10 @@
 #include <vector>
 
 #include <firstcontact/haptic_devices/mail_slot.h>
-#include <firstcontact/haptics/detail/real_time.h>
-#include <firstcontact/haptics/detail/session_periods.h>
-#include <firstcontact/haptics/detail/target_lead.h>
-#include <firstcontact/haptics/detail/tick_ring.h>
+#include <firstcontact/haptic_sessions/detail/real_time.h>
+#include <firstcontact/haptic_sessions/detail/session_periods.h>
+#include <firstcontact/haptic_sessions/detail/target_lead.h>
+#include <firstcontact/haptic_sessions/detail/tick_ring.h>
 
 namespace firstcontact {
 namespace {

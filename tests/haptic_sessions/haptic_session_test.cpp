@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/haptics/haptic_session.h>
-#include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
+#include <firstcontact/haptic_sessions/timing_histogram.h>
 #include <firstcontact/motion/motion.h>
 
 #include "haptics/haptic_scenes.h"

@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/detail/real_time.h>
+#include <firstcontact/haptic_sessions/detail/real_time.h>
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/haptic_sessions/timing_histogram.h>
 
 #include <algorithm>
 #include <bit>

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/haptic_sessions/detail/target_lead.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/target_follower.h>
-#include <firstcontact/haptics/detail/target_lead.h>
 
 namespace firstcontact::detail {
 namespace {

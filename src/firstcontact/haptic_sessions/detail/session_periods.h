@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 namespace firstcontact::detail {
 

@@ -13,9 +13,9 @@
 
 #include <firstcontact/haptic_devices/device.h>
 #include <firstcontact/haptic_devices/mail_slot.h>
+#include <firstcontact/haptic_sessions/detail/tick_ring.h>
+#include <firstcontact/haptic_sessions/wall_session.h>
 #include <firstcontact/haptics/contact_set.h>
-#include <firstcontact/haptics/detail/tick_ring.h>
-#include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/motion/motion.h>
 
 #include "haptics/haptic_scenes.h"

@@ -1,4 +1,4 @@
-#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptic_sessions/haptic_session.h>
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/haptics/detail/session_periods.h>
-#include <firstcontact/haptics/detail/target_lead.h>
+#include <firstcontact/haptic_sessions/detail/session_periods.h>
+#include <firstcontact/haptic_sessions/detail/target_lead.h>
 
 namespace firstcontact {
 
