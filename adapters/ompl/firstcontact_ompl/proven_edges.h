@@ -46,7 +46,8 @@ class ProvenStates : public ompl::base::StateValidityChecker {
 };
 
 /// A motion is valid if the whole edge is proven free; what is undecided is not, and is counted.
-/// A motion along which OMPL may turn the other way is not valid: OmplStates::has_same_edge().
+/// A motion is not valid either where OMPL may turn the other way or not at all, as planners keep
+/// places between and never ask again: OmplStates::has_same_edge() and leaves_out_turn().
 ///
 /// Set it with setMotionValidator() before setup(), beside ProvenStates of the same checker. A
 /// motion that is not valid has a last valid state. It is a rounded state of OMPL, and the edge to
@@ -61,7 +62,7 @@ class ProvenEdges : public ompl::base::MotionValidator {
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
     const Configuration start = states_.read(from);
     const Configuration end = states_.read(to);
-    return count(states_.has_same_edge(start, end) ? edges_->check_quickly(start, end) : kBlocked);
+    return count(is_followed(start, end) ? edges_->check_quickly(start, end) : kBlocked);
   }
 
   /// The state of `last` may be null, or `to` itself.
@@ -69,8 +70,7 @@ class ProvenEdges : public ompl::base::MotionValidator {
                    std::pair<ompl::base::State*, double>& last) const override {
     const Configuration start = states_.read(from);
     const Configuration end = states_.read(to);
-    const EdgeAnswer answer =
-        states_.has_same_edge(start, end) ? edges_->check(start, end) : kBlocked;
+    const EdgeAnswer answer = is_followed(start, end) ? edges_->check(start, end) : kBlocked;
     if (count(answer)) {
       return true;
     }
@@ -89,6 +89,11 @@ class ProvenEdges : public ompl::base::MotionValidator {
  private:
   static inline const EdgeAnswer kBlocked{.verdict = EdgeVerdict::blocked};
 
+  /// Whether OMPL interpolates along our edge.
+  bool is_followed(const Configuration& from, const Configuration& to) const {
+    return states_.has_same_edge(from, to) && !states_.leaves_out_turn(from, to);
+  }
+
   bool count(const EdgeAnswer& answer) const {
     const bool is_free = answer.verdict == EdgeVerdict::free;
     undecided_ += answer.verdict == EdgeVerdict::undecided ? 1 : 0;
@@ -98,8 +103,8 @@ class ProvenEdges : public ompl::base::MotionValidator {
 
   /// The state at a fraction, or at a lesser one, to which the edge is proven free; else the start.
   ///
-  /// OMPL rounds states by its own arithmetic: its slerp leaves out turns below 1e-4 rad. So the
-  /// edge to the rounded state is proven by itself.
+  /// OMPL rounds states by its own arithmetic, and leaves out small turns. So the edge to the
+  /// rounded state is proven by itself.
   double prove_way(const ompl::base::State* from, const ompl::base::State* to, double fraction,
                    ompl::base::State* reached) const {
     constexpr int kTries = 3;
@@ -108,7 +113,8 @@ class ProvenEdges : public ompl::base::MotionValidator {
     const Configuration start = states_.read(from);
     for (int k = 0; k < kTries && fraction > 0.0; ++k) {
       si_->getStateSpace()->interpolate(from, to, fraction, reached);
-      if (edges_->check(start, states_.read(reached)).verdict == EdgeVerdict::free) {
+      const Configuration place = states_.read(reached);
+      if (is_followed(start, place) && edges_->check(start, place).verdict == EdgeVerdict::free) {
         return fraction;
       }
       fraction *= 1.0 - kLess * (k == 0 ? 1.0 : 100.0);
