@@ -513,6 +513,29 @@ TEST(NarrowPassages, AreSolvedInContact) {
   }
 }
 
+// Slides along blocked edges must leave work for pushes and passages, or searches take 100 times as
+// many edges. A bound is three times the median of nine seeds.
+TEST(NarrowPassages, NeedFewEdgesInContact) {
+  struct Case {
+    const char* family;
+    std::size_t edges;
+  };
+  for (const auto& [family, edges] :
+       {Case{"window", 1700}, Case{"peg", 2200}, Case{"tunnel", 6300}}) {
+    const NarrowPassage passage = narrow_passage(family, 0.01);
+    std::vector<std::size_t> needed;
+    for (std::uint64_t seed = 1; seed <= rounds(9, 3); ++seed) {
+      const PlanResult result =
+          plan_path(passage.scene, passage.start, {passage.goal},
+                    {.contacts = ContactUse::both, .seed = seed, .time = 300.0, .shortcuts = 0});
+      ASSERT_EQ(result.verdict, PlanVerdict::proven) << family << ' ' << seed;
+      needed.push_back(result.statistics.edges_checked);
+    }
+    std::ranges::sort(needed);
+    EXPECT_LT(needed[needed.size() / 2], edges) << family;
+  }
+}
+
 // Through a gap of 10 um less than nothing there is no way, whatever is done in contact.
 TEST(NarrowPassages, HaveTwinsThatNothingGetsThrough) {
   for (const char* family : narrow_families()) {

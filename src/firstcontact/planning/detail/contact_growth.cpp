@@ -40,13 +40,12 @@ ContactSteering& ContactGrowth::steering() {
 void ContactGrowth::next(bool is_stuck) {
   is_stuck_ = is_stuck;
   turn_ = Turn::edges;
-  if (!is_due()) {
+  has_begun_ = has_begun_ || is_due();
+  if (use_ == ContactUse::none || use_ == ContactUse::slide) {
     return;
   }
-  has_begun_ = true;
-  if (use_ == ContactUse::slide) {
-    return;
-  }
+  // Drawn also where nothing is due: it may become due before the tree has grown. Blocked edges
+  // come first then, and would leave nothing for pushes and passages.
   const std::size_t drawn = random_.below(4);
   const bool has_gaps = gaps_->may_draw();
   if (is_stuck) {
