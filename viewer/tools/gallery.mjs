@@ -81,13 +81,13 @@ all.push(
     name: "panda_plan",
     ...plan(
       ...["--robot", `${panda}/urdf/panda.urdf`, "--srdf", `${panda}/srdf/panda.srdf`],
-      ...["--environment", `${bookshelf}/scene0056.yaml`],
-      ...["--request", `${bookshelf}/request0056.yaml`],
+      ...["--environment", `${bookshelf}/scene0022.yaml`],
+      ...["--request", `${bookshelf}/request0022.yaml`],
     ),
     theme: "light",
     keys: ["b"],
     nearer: 1,
-    t: 0.4,
+    t: 0.6,
   },
   { name: "two_pandas", ...plan("demo/plans/two_pandas.json"), theme: "light", t: 0.5 },
   {
