@@ -23,6 +23,7 @@
 #include <firstcontact/scene_files/write_planned_path.h>
 
 #include "robot/planar_arm.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -365,7 +366,7 @@ ScenePlan demo_plan(const std::string& name) {
 // Six boxes pass the belt at 0.5 m/s, and leave 0.5 m between them.
 TEST(PlanInTime, CrossesAConveyorBetweenItsBoxes) {
   const ScenePlan plan = demo_plan("conveyor.json");
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(5, 1)); ++seed) {
     PlanOptions options = plan.options;
     options.seed = seed;
     const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, options);
@@ -387,7 +388,7 @@ TEST(PlanInTime, CrossesAConveyorBetweenItsBoxes) {
 // Two wings turn once in 10 s. A cart has to walk along between them.
 TEST(PlanInTime, GoesThroughARevolvingDoor) {
   const ScenePlan plan = demo_plan("revolving_door.json");
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(5, 1)); ++seed) {
     PlanOptions options = plan.options;
     options.seed = seed;
     const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, options);

@@ -92,7 +92,7 @@ TEST(PlanPath, ShortcutsGoOnWhileTheyHelp) {
   const Configuration inside = {0.0, 0.1, -0.1};
   double by_default = 0.0;
   double at_most = 0.0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(20, 3)); ++seed) {
     by_default += plan_path(scene, kBehind, {inside}, {.seed = seed}).cost;
     at_most += plan_path(scene, kBehind, {inside}, {.seed = seed, .shortcuts = 5000}).cost;
   }
