@@ -203,6 +203,56 @@ TEST_P(Passivity, StiffnessOfFiveBoundsIsFoundToBeActive) {
   }
 }
 
+// The hand lets go while it presses. The handle is pushed out, by no more energy than went in.
+TEST_P(Passivity, ReleasedHandleIsPushedOutByLessThanWasPutIn) {
+  const DeviceClass& device = GetParam();
+  for (const double hand : {200.0, 1500.0}) {
+    for (const double mass : {0.05, 1.0}) {
+      const Press press{.hand = hand, .mass = mass};
+      const double stiffness = device.proven_part * bound_of(device);
+      SimulatedOperatorOptions options = operator_of(device, press, 1);
+      options.hand.damping = 2.0 * std::sqrt((hand + stiffness) * mass);  // So it comes to rest.
+      options.path.resize(3);                                             // It goes on pressing.
+      options.releases = {{0.6, std::numeric_limits<double>::infinity()}};
+      SimulatedOperator handle(options);
+      HapticSession session = session_of(handle, press, stiffness);
+      OperatorEnergy at_release;
+      double height_at_release = 0.0;
+      double most_kinetic = 0.0;
+      double least_clearance = std::numeric_limits<double>::infinity();
+      double lowest = std::numeric_limits<double>::infinity();
+      bool acts = false;
+      for (int k = 0; k < 4000; ++k) {
+        const std::int64_t now = session.time_ns();
+        const std::array states{handle.read(now)};
+        if (handle.truth().held) {
+          at_release = handle.energy();
+          height_at_release = handle.truth().X_DH.position.z();
+        } else {
+          most_kinetic = std::max(most_kinetic, handle.energy().kinetic);
+        }
+        const ForceCommand& command = session.step(states).tools[0].command;
+        handle.command(command, now);
+        acts = !command.force_D.isZero(0.0);
+        lowest = std::min(lowest, session.contacts().pose(0).position.z());
+        if (session.cycle() != nullptr) {
+          least_clearance = std::min(least_clearance, session.cycle()->clearance);
+        }
+      }
+      EXPECT_LT(height_at_release, -0.0041) << press;                // It was pressed ...
+      EXPECT_GT(handle.truth().X_DH.position.z(), -0.004) << press;  // ... and is out.
+      EXPECT_FALSE(acts) << press;
+      const double stretch = -0.004 + 1e-5 - height_at_release;  // [m]  With the gap at the floor.
+      const double stored = 0.5 * stiffness * stretch * stretch;
+      EXPECT_GT(most_kinetic, 0.2 * stored) << press;  // It is pushed.
+      EXPECT_LE(most_kinetic, at_release.kinetic + stored + kLate) << press;
+      EXPECT_LE(handle.energy().command_work, handle.energy().dissipated + kLate) << press;
+      EXPECT_GT(least_clearance, 0.0) << press;
+      EXPECT_GT(lowest, 0.02) << press;  // Half of the cube: the tool never passes.
+    }
+  }
+}
+
 // With jitter a device bears less than its bound: docs/haptics.md.
 INSTANTIATE_TEST_SUITE_P(
     Devices, Passivity,
