@@ -100,11 +100,21 @@ class HapticSession::Implementation {
           {.poses = targets_, .joints = std::span(tick.joint_targets).first(tick.joints)},
           1e-9 * static_cast<double>(periods_.cycle_ns), now_ns_);
       is_running_ = true;
-      ends_ns_ = now_ns_ + periods_.latency_ns;
-      begins_ns_ = now_ns_ + periods_.cycle_ns;
+      ends_ns_ = now_ns_ + periods_.latency_ns + stall_ns_;
+      begins_ns_ = now_ns_ + periods_.cycle_ns + stall_ns_;
+      stall_ns_ = 0;
     }
     now_ns_ += periods_.force_ns;
     return tick;
+  }
+
+  void stall_contacts(std::int64_t stall_ns) {
+    if (!(stall_ns >= 0)) {
+      throw std::invalid_argument("HapticSession::stall_contacts: the time must be >= 0 ns");
+    }
+    // Without a cycle that runs, the next one begins at once, and ends later.
+    (is_running_ ? ends_ns_ : stall_ns_) += stall_ns;
+    begins_ns_ += is_running_ ? stall_ns : 0;
   }
 
   detail::SessionPeriods periods_;
@@ -121,6 +131,7 @@ class HapticSession::Implementation {
   bool is_running_ = false;
   std::int64_t ends_ns_ = 0;
   std::int64_t begins_ns_ = 0;
+  std::int64_t stall_ns_ = 0;
 };
 
 HapticSession::HapticSession(HapticScene scene, const HapticSessionOptions& options)
@@ -133,6 +144,9 @@ const ForceTick& HapticSession::step(std::span<const DeviceState> devices) {
   return implementation_->step(devices);
 }
 const HapticCycle* HapticSession::cycle() const { return implementation_->cycle_; }
+void HapticSession::stall_contacts(std::int64_t stall_ns) {
+  implementation_->stall_contacts(stall_ns);
+}
 std::int64_t HapticSession::time_ns() const { return implementation_->now_ns_; }
 std::int64_t HapticSession::force_period_ns() const { return implementation_->periods_.force_ns; }
 std::int64_t HapticSession::cycle_period_ns() const { return implementation_->periods_.cycle_ns; }

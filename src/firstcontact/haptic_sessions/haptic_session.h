@@ -54,6 +54,13 @@ class FIRSTCONTACT_API HapticSession {
   /// The cycle that the last step has run; null where it ran none.
   [[nodiscard]] const HapticCycle* cycle() const;
 
+  /// Delays the contacts of the cycle that runs, or of the next one, and all cycles after it: the
+  /// contact loop stalls, once.
+  ///
+  /// @param stall_ns  [ns]  >= 0
+  /// @throws std::invalid_argument if it is below 0
+  void stall_contacts(std::int64_t stall_ns);
+
   [[nodiscard]] std::int64_t time_ns() const;          ///< [ns]  Time of the next tick.
   [[nodiscard]] std::int64_t force_period_ns() const;  ///< [ns]  Period of the force loop.
   /// [ns]  Period of the contact loop, latency included.
