@@ -11,9 +11,10 @@
 //
 // Theory: J. J. Abbott, A. M. Okamura, "Effects of position quantization and sampling rate on
 // virtual-wall passivity", IEEE Transactions on Robotics 21 (2005): K <= min(2 b / T, 2 f_c / D)
-// for a wall without delay. With a delay d the linear bound is b / (T / 2 + d): J. J. Gil et al.,
-// "Stability analysis of a 1-DOF haptic interface", IEEE/ASME Transactions on Mechatronics 14
-// (2009).
+// for a wall without delay. With a delay d the linear bound is b / (T / 2 + d): J. J. Gil,
+// E. Sanchez, T. Hulin, C. Preusche, G. Hirzinger, "Stability boundary for haptic rendering:
+// influence of damping and delay", Journal of Computing and Information Science in Engineering 9
+// (2009). For d the greatest delay is taken: that of the sensor and the jitter.
 
 #include <algorithm>
 #include <array>
