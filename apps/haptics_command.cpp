@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,6 +32,7 @@
 #include "haptic_live.h"
 #include "haptic_plot.h"
 #include "haptic_report.h"
+#include "haptic_warnings.h"
 #include "interrupt.h"
 #include "output_files.h"
 #include "progress.h"
@@ -128,6 +130,7 @@ class HapticsRun {
       setup_.options.mappings[k].device = devices_[k]->capabilities();
       require_buttons(k);
       require_grips(k);
+      add_warnings(k);
       pointers_.push_back(devices_[k].get());
       if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
         server_ = mouse;
@@ -167,6 +170,17 @@ class HapticsRun {
                                    setup_.scene.tools[tool].name, needed,
                                    device.name.empty() ? "it" : device.name, device.grips));
     }
+  }
+
+  void add_warnings(std::size_t tool) {
+    std::vector<std::string> all =
+        device_warnings(setup_.scene.tools[tool], setup_.options.mappings[tool].scale,
+                        devices_[tool]->capabilities());
+    if (const auto* recording = std::get_if<Recording>(&named_.choices[tool])) {
+      const std::string speeds = recording_warning(arguments_.devices[tool], *recording);
+      all.insert(all.end(), speeds.empty() ? 0 : 1, speeds);
+    }
+    warnings_.insert(warnings_.end(), all.begin(), all.end());
   }
 
   void begin_files() {
@@ -341,6 +355,9 @@ class HapticsRun {
     for (const std::string& warning : loaded_.warnings) {
       say(answer_line("warning", warning));
     }
+    for (const std::string& warning : warnings_) {
+      say(answer_line("warning", warning));
+    }
     if (run_file_) {
       say(answer_line("run", arguments_.run + "; `firstcontact verify` proves it again"));
     }
@@ -362,6 +379,7 @@ class HapticsRun {
   HapticSetup setup_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Device*> pointers_;
+  std::vector<std::string> warnings_;  // About devices.
   std::array<Pose, kMostTools> god_objects_ = {};
   std::optional<HapticRun> record_;
   StepDevices step_devices_;

@@ -59,6 +59,19 @@ void require_no_scene(const std::string& file, const std::string& text) {
                                      mend, file));
 }
 
+/// Refuses a table of `haptics`, which proves nothing.
+///
+/// @throws ParseError if the text is one
+void require_no_table(const std::string& file, const std::string& text) {
+  const bool is_ticks = text.starts_with("time_ns,tool,status,");
+  const bool is_cycles = text.starts_with("cycle,time_ns,asked_s,");
+  if (is_ticks || is_cycles) {
+    throw ParseError(file, fmt::format("expected the run of the session, which `firstcontact "
+                                       "haptics -o run.jsonl` writes, got its table of {}",
+                                       is_ticks ? "ticks" : "cycles"));
+  }
+}
+
 ExitStatus verify(const ProofArguments& arguments) {
   const Interrupt interrupt;  // First, as other threads inherit its block of signals.
   Progress progress;
@@ -78,6 +91,7 @@ ExitStatus verify(const ProofArguments& arguments) {
     }
     if (kind == ProvableFile::unknown) {
       require_no_scene(arguments.file, text);
+      require_no_table(arguments.file, text);
     }
     stream.clear();
     if (!stream.seekg(0)) {

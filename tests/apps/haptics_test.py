@@ -65,6 +65,7 @@ class Haptics(tool_test.ToolTest):
         with open(self.folder / "cycles.csv", encoding="utf-8") as file:
             cycles = list(csv.DictReader(file))
         self.assertEqual(len(cycles), 500)
+        self.assertEqual({(cycle["angle_rad"], cycle["processor_s"]) for cycle in cycles}, {("0", "")})
         self.assert_devices_are_those_of_ticks(ticks, cycles)
         self.assertTrue((self.folder / "plot.svg").read_text().startswith("<svg"))
 
@@ -289,6 +290,7 @@ class Haptics(tool_test.ToolTest):
             with open(self.folder / name, encoding="utf-8") as file:
                 tables.append(list(csv.DictReader(file)))
         self.assert_devices_are_those_of_ticks(*tables)
+        self.assertTrue(all(0.0 < float(cycle["processor_s"]) < 100.0 for cycle in tables[1]))
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
 
     def assert_counts_ticks_by_contacts(self, answer):
@@ -542,6 +544,48 @@ class Haptics(tool_test.ToolTest):
         self.assertFalse((self.folder / "-").exists())
         self.file("broken.csv", "no recording\n")
         self.assert_writes_nothing(self.haptics("--device", "broken.csv"), "broken.csv")
+        self.recording((0, 0), (1_000_000, 0.01))
+        self.file("hand.csv", (self.folder / "hand.csv").read_text().replace(",", ";"))
+        self.assert_writes_nothing(self.haptics("--device", "hand.csv"), "hand.csv:2", "separated by commas", "semicolons")
+
+    def test_verifies_runs_but_no_tables(self):
+        self.file("scene.json", scene())
+        result = self.haptics("--device", "simulated", "--duration", "0.01", "--ticks", "ticks.csv", "--cycles",
+                              "cycles.csv")
+        self.assertEqual(result.returncode, 0, result)
+        for name in ("ticks", "cycles"):
+            self.assert_refused_with(self.run_tool("verify", f"{name}.csv"), f"{name}.csv: expected the run of the session",
+                                     "-o run.jsonl", f"its table of {name}")
+
+    def test_warns_of_a_recording_in_millimetres(self):
+        self.file("scene.json", scene())
+        for unit, warns in ((1.0, False), (1000.0, True)):
+            # 0.1 m/s, and a rest that counts for neither.
+            self.recording(*((1_000_000 * k, unit * (0.04 + 1e-4 * min(k, 50))) for k in range(500)))
+            result = self.haptics("--device", "hand.csv", "--duration", "0.1", "--force")
+            self.assertEqual(result.returncode, 0, result)
+            self.assertEqual("hand.csv: faster than 20 m/s in 50 of 50 samples that move" in result.stdout, warns, result)
+            self.assertEqual("calibration_scale: 0.001" in result.stdout, warns)
+        text = (self.folder / "hand.csv").read_text()
+        self.file("hand.csv", text.replace("1\n", "1\n# calibration_scale: 0.001\n", 1))
+        self.assertNotIn("faster than", self.haptics("--device", "hand.csv", "--duration", "0.1", "--force").stdout)
+
+    def test_warns_of_gains_beyond_those_of_the_device(self):
+        """With a scale of 0.5 the device feels a quarter of the stiffness and the damping."""
+        self.file("scene.json", scene(tools=[{"body": "peg", "stiffness": 8000, "angular_stiffness": 2, "damping": 4,
+                                              "scale": 0.5}]))
+        for limits, words in (("max_stiffness: 1999", 'the stiffness of "peg" is 2000 N/m at the device'),
+                              ("max_angular_stiffness: 1.9", 'the angular_stiffness of "peg" is 2 N m/rad'),
+                              ("max_damping: 0.9", 'the damping of "peg" is 1 N s/m at the device, whose max_damping is 0.9'),
+                              ("max_angular_damping: 0.0009", 'the damping about axes of "peg" is 0.001 N m s/rad'),
+                              ("max_stiffness: 2000", ""), ("max_damping: 1", "")):
+            self.recording((0, 0), (1_000_000, 0))
+            text = (self.folder / "hand.csv").read_text()
+            self.file("hand.csv", text.replace("1\n", f"1\n# driven: 111111\n# {limits}\n", 1))
+            result = self.haptics("--device", "hand.csv", "--duration", "0.01", "--force")
+            self.assertEqual(result.returncode, 0, result)
+            self.assertEqual("warning" in result.stdout, words != "", result)
+            self.assertIn(words, result.stdout)
 
 
 if __name__ == "__main__":

@@ -190,6 +190,11 @@ TEST(Recording, NamesLineColumnAndMend) {
             "hand.csv:2: column 10 (x): stands twice");
   EXPECT_EQ(refusal("# firstcontact recording: 1\ntime_ns,sequense,x,y,z,qw,qx,qy,qz\n"),
             "hand.csv:2: column 2 (sequense): unknown column; is it 'sequence'?");
+  const std::string semicolons =
+      "columns are separated by commas, but this line has semicolons; numbers have a point";
+  EXPECT_EQ(refusal("# firstcontact recording: 1\ntime_ns;sequence;x;y;z;qw;qx;qy;qz\n"),
+            "hand.csv:2: " + semicolons);
+  EXPECT_EQ(refusal(pose_text("5;0;0;0;0;1;0;0;0\n")), "hand.csv:3: " + semicolons);
 }
 
 TEST(Recording, NamesKeysThatItDoesNotTake) {

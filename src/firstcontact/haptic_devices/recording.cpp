@@ -204,7 +204,15 @@ class RecordingParser {
     }
   }
 
+  /// Refuses a line that a spreadsheet has written with semicolons.
+  void require_commas() const {
+    if (line_.find(',') == std::string_view::npos && line_.find(';') != std::string_view::npos) {
+      fail("columns are separated by commas, but this line has semicolons; numbers have a point");
+    }
+  }
+
   void read_columns() {
+    require_commas();
     split(names_);
     for (std::size_t place = 0; place < names_.size(); ++place) {
       const std::string_view name = names_[place];
@@ -333,6 +341,7 @@ class RecordingParser {
   }
 
   void read_sample() {
+    require_commas();
     split(cells_);
     if (cells_.size() != columns_.size()) {
       fail("expected " + std::to_string(columns_.size()) + " cells as in the line of names, got " +

@@ -224,7 +224,8 @@ class ContactThread {
                        .joints = std::span(handed.joints).first(handed.joint_count)},
                       1e-9 * static_cast<double>(period_ns_), handed.time_ns, deadline);
     report_.cycle_wall.add(steady_now_ns() - begin);
-    report_.cycle_cpu.add(cpu_now_ns() - cpu);
+    const std::int64_t took = cpu_now_ns() - cpu;
+    report_.cycle_cpu.add(took);
     if (wall_.contact_delay_ns > 0) {
       sleep_until_ns(steady_now_ns() + wall_.contact_delay_ns);
     }
@@ -235,6 +236,7 @@ class ContactThread {
     ++report_.cycles;
     const std::lock_guard lock(shared_.cycles_mutex);
     shared_.cycles.emplace_back(cycle, handed.time_ns);
+    shared_.cycles.back().first.processor_time = 1e-9 * static_cast<double>(took);
   }
 
   /// Counts the time by which courses fall behind the wall clock: they move on by a period a cycle.

@@ -66,6 +66,9 @@ struct HapticCycle {
   bool is_unproven = false;
   double residual = 0.0;     ///< [m]  Greatest residual of the projections.
   std::size_t contacts = 0;  ///< Number of contacts at the end of the cycle.
+  double angle = 0.0;        ///< [rad]  HapticContactSet::angle of its contact set.
+  /// [s]  Processor time of its thread; none in virtual time, where it is not measured.
+  std::optional<double> processor_time = {};
   std::vector<HapticMemberMotion> members = {};
   std::vector<double> joints = {};  ///< [rad or m]  Joints of all tools, at the end of the cycle.
   /// The contacts of the contact set, at the end of the cycle.

@@ -122,7 +122,8 @@ std::string haptic_tick_lines(const ForceTick& tick, std::size_t tools,
 }
 
 std::string haptic_cycle_header(const GripColumns& columns) {
-  return "cycle,time_ns,asked_s,lasted_s,clearance_m,rounds,converged,late,residual_m,contacts" +
+  return "cycle,time_ns,asked_s,lasted_s,clearance_m,rounds,converged,late,residual_m,contacts,"
+         "angle_rad,processor_s" +
          numbered("joint", columns.joints) + "\n";
 }
 
@@ -138,7 +139,13 @@ std::string haptic_cycle_line(const HapticCycle& cycle, std::int64_t time_ns) {
       .add(cycle.is_late ? 1 : 0)
       .add(cycle.residual)
       .add(cycle.contacts)
-      .add(std::span(cycle.joints));
+      .add(cycle.angle);
+  if (cycle.processor_time) {
+    line.add(*cycle.processor_time);
+  } else {
+    line.add("");
+  }
+  line.add(std::span(cycle.joints));
   return line.take();
 }
 

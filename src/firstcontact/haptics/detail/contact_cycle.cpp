@@ -408,6 +408,7 @@ void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
   set_.is_unproven = cycle_.is_unproven;
   detail::list_contacts(touches_, reduced_touches(), frames_, tools(), options_, set_,
                         cycle_.touches);
+  cycle_.angle = set_.angle;
   for (std::size_t k = 0; k < tools(); ++k) {
     set_.X_WB[k] = poses_[k];
     set_.p_WC[k] = frames_.p_WC[k];
