@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
@@ -20,5 +21,8 @@ std::pair<std::string, MakePlanner> planner(const std::string& name) {
   return {name,
           [](const ompl::base::SpaceInformationPtr& si) { return std::make_shared<Planner>(si); }};
 }
+
+/// Every geometric planner of OMPL 1.5.2 that needs nothing but a space.
+[[nodiscard]] std::vector<std::pair<std::string, MakePlanner>> all_planners();
 
 }  // namespace firstcontact::test

@@ -1,4 +1,4 @@
-// Planners of OMPL on proven edges: every path that they give is proven again, edge by edge.
+// Proven edges and places in OMPL: what is valid, and the last valid state.
 
 #include <gtest/gtest.h>
 
@@ -12,53 +12,13 @@
 
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
-#include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/AnytimePathShortening.h>
-#include <ompl/geometric/planners/cforest/CForest.h>
-#include <ompl/geometric/planners/est/BiEST.h>
-#include <ompl/geometric/planners/est/EST.h>
-#include <ompl/geometric/planners/est/ProjEST.h>
-#include <ompl/geometric/planners/fmt/BFMT.h>
-#include <ompl/geometric/planners/fmt/FMT.h>
-#include <ompl/geometric/planners/informedtrees/ABITstar.h>
-#include <ompl/geometric/planners/informedtrees/AITstar.h>
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
-#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
-#include <ompl/geometric/planners/kpiece/KPIECE1.h>
-#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
-#include <ompl/geometric/planners/pdst/PDST.h>
-#include <ompl/geometric/planners/prm/LazyPRM.h>
-#include <ompl/geometric/planners/prm/LazyPRMstar.h>
-#include <ompl/geometric/planners/prm/PRM.h>
-#include <ompl/geometric/planners/prm/PRMstar.h>
-#include <ompl/geometric/planners/prm/SPARS.h>
-#include <ompl/geometric/planners/prm/SPARStwo.h>
-#include <ompl/geometric/planners/rlrt/BiRLRT.h>
-#include <ompl/geometric/planners/rlrt/RLRT.h>
-#include <ompl/geometric/planners/rrt/BiTRRT.h>
-#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
-#include <ompl/geometric/planners/rrt/LBTRRT.h>
-#include <ompl/geometric/planners/rrt/LazyLBTRRT.h>
-#include <ompl/geometric/planners/rrt/LazyRRT.h>
-#include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
-#include <ompl/geometric/planners/rrt/RRTXstatic.h>
-#include <ompl/geometric/planners/rrt/RRTsharp.h>
-#include <ompl/geometric/planners/rrt/RRTstar.h>
-#include <ompl/geometric/planners/rrt/SORRTstar.h>
-#include <ompl/geometric/planners/rrt/TRRT.h>
-#include <ompl/geometric/planners/rrt/pRRT.h>
-#include <ompl/geometric/planners/sbl/SBL.h>
-#include <ompl/geometric/planners/sbl/pSBL.h>
-#include <ompl/geometric/planners/sst/SST.h>
-#include <ompl/geometric/planners/stride/STRIDE.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include "firstcontact_ompl/proven_edges.h"
-#include "planning/ompl_planners.h"
+#include "planning/ompl_proven.h"
 #include "planning/plan_cases.h"
 #include "support/random.h"
 
@@ -67,117 +27,6 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-/// Every geometric planner of OMPL 1.5.2 that needs nothing but a space.
-std::vector<std::pair<std::string, MakePlanner>> all_planners() {
-  return {planner<og::RRT>("RRT"),
-          {"RRT with intermediate states",
-           [](const ob::SpaceInformationPtr& si) { return std::make_shared<og::RRT>(si, true); }},
-          planner<og::RRTConnect>("RRTConnect"),
-          {"RRTConnect with intermediate states",
-           [](const ob::SpaceInformationPtr& si) {
-             return std::make_shared<og::RRTConnect>(si, true);
-           }},
-          planner<og::RRTstar>("RRTstar"),
-          planner<og::RRTXstatic>("RRTXstatic"),
-          planner<og::RRTsharp>("RRTsharp"),
-          planner<og::InformedRRTstar>("InformedRRTstar"),
-          planner<og::SORRTstar>("SORRTstar"),
-          planner<og::TRRT>("TRRT"),
-          planner<og::BiTRRT>("BiTRRT"),
-          planner<og::LBTRRT>("LBTRRT"),
-          planner<og::LazyLBTRRT>("LazyLBTRRT"),
-          planner<og::LazyRRT>("LazyRRT"),
-          planner<og::pRRT>("pRRT"),
-          planner<og::PRM>("PRM"),
-          planner<og::PRMstar>("PRMstar"),
-          planner<og::LazyPRM>("LazyPRM"),
-          planner<og::LazyPRMstar>("LazyPRMstar"),
-          planner<og::SPARS>("SPARS"),
-          planner<og::SPARStwo>("SPARStwo"),
-          planner<og::EST>("EST"),
-          planner<og::BiEST>("BiEST"),
-          planner<og::ProjEST>("ProjEST"),
-          planner<og::SBL>("SBL"),
-          planner<og::pSBL>("pSBL"),
-          planner<og::SST>("SST"),
-          planner<og::KPIECE1>("KPIECE1"),
-          planner<og::BKPIECE1>("BKPIECE1"),
-          planner<og::LBKPIECE1>("LBKPIECE1"),
-          planner<og::STRIDE>("STRIDE"),
-          planner<og::PDST>("PDST"),
-          planner<og::RLRT>("RLRT"),
-          planner<og::BiRLRT>("BiRLRT"),
-          planner<og::FMT>("FMT"),
-          planner<og::BFMT>("BFMT"),
-          planner<og::BITstar>("BITstar"),
-          planner<og::ABITstar>("ABITstar"),
-          planner<og::AITstar>("AITstar"),
-          planner<og::CForest>("CForest")};
-}
-
-/// A space of OMPL with proven edges.
-struct Proven {
-  explicit Proven(PlanScene scene)
-      : edges(std::make_shared<EdgeChecker>(std::move(scene))),
-        space(make_ompl_space(edges->space())),
-        si(std::make_shared<ob::SpaceInformation>(space)),
-        validator(std::make_shared<ProvenEdges>(si, edges)) {
-    si->setStateValidityChecker(std::make_shared<ProvenStates>(si, edges));
-    si->setMotionValidator(validator);
-    si->setup();
-  }
-
-  ob::State* state(const Configuration& q) const {
-    ob::State* made = si->allocState();
-    space->copyFromReals(made, q);
-    return made;
-  }
-
-  std::shared_ptr<EdgeChecker> edges;
-  ob::StateSpacePtr space;
-  ob::SpaceInformationPtr si;
-  std::shared_ptr<ProvenEdges> validator;
-};
-
-TEST(Ompl, EveryPlannersPathIsProven) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  ompl::RNG::setSeed(1);
-  const PlanScene scene = with_gantry(thin_wall(0.5));
-  // Pieces of proven edges keep the margin, whatever splits them.
-  const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
-  std::vector<std::string> unsolved;
-  for (const auto& [name, make] : all_planners()) {
-    const Proven proven(scene);
-    const OmplStates states(*proven.space, proven.edges->space());
-    auto problem = std::make_shared<ob::ProblemDefinition>(proven.si);
-    ob::ScopedState<> start(proven.space);
-    ob::ScopedState<> goal(proven.space);
-    proven.space->copyFromReals(start.get(), {-1.5, 1.2, -0.7});
-    proven.space->copyFromReals(goal.get(), {1.5, 1.1, -0.9});
-    problem->setStartAndGoalStates(start, goal, 1e-6);
-    const ob::PlannerPtr planner = make(proven.si);
-    planner->setProblemDefinition(problem);
-    planner->setup();
-    const ob::PlannerTerminationCondition found([&] { return problem->hasExactSolution(); });
-    planner->solve(
-        ob::plannerOrTerminationCondition(found, ob::timedPlannerTerminationCondition(3.0)));
-    if (!problem->hasExactSolution()) {
-      unsolved.push_back(name);
-    }
-    const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
-    if (!path) {
-      continue;
-    }
-    for (std::size_t k = 0; k + 1 < path->getStateCount(); ++k) {
-      const Configuration from = states.read(path->getState(static_cast<unsigned int>(k)));
-      const Configuration to = states.read(path->getState(static_cast<unsigned int>(k + 1)));
-      ASSERT_EQ(strict.check(from, to).verdict, EdgeVerdict::free) << name << ", edge " << k;
-    }
-  }
-  // Some need more time, or a rougher space, for their first path; most do not.
-  EXPECT_LE(unsolved.size(), all_planners().size() / 3) << ::testing::PrintToString(unsolved);
-}
 
 TEST(Ompl, GivesALastValidStateThatIsProven) {
   const PlanScene scene = with_gantry(thin_wall(0.3));
