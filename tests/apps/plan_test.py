@@ -428,6 +428,28 @@ class Plan(tool_test.ToolTest):
         self.file("request.json", {**request, "group_name": "left"})
         self.assert_refused_with(self.plan(*robot, "--srdf", "gantry.srdf"), "group_name", "lift, both", '"left"')
 
+    def test_takes_the_time_of_a_request(self):
+        self.file("gantry.urdf", URDF)
+        goal = {"goal_constraints": [{"joint_constraints": [{"joint_name": "x", "position": 0.5}]}]}
+        robot = ["--robot", "gantry.urdf", "--request", "request.json", "--json"]
+
+        def time_of(*options, **request):
+            self.file("request.json", {**goal, **request})
+            result = self.plan(*robot, *options)
+            self.assertEqual(result.returncode, 0, result)
+            return json.loads(result.stdout)["planner"]["time"]
+        self.assertEqual(time_of(), 10)
+        self.assertEqual(time_of(allowed_planning_time=60.5), 60.5)
+        self.assertEqual(time_of("--time", "20", allowed_planning_time=60.5), 20)
+        self.assertEqual(time_of(allowed_planning_time=0), 10)  # As a message has it unset.
+        for wrong in (-1, "long", None):
+            self.file("request.json", {**goal, "allowed_planning_time": wrong})
+            self.assert_refused_with(self.plan(*robot), "request.json", "allowed_planning_time")
+        for wrong in (".nan", ".inf", "1e999"):
+            self.file("request.json", "allowed_planning_time: " + wrong + "\ngoal_constraints: "
+                      "[{joint_constraints: [{joint_name: x, position: 0.5}]}]")
+            self.assert_refused_with(self.plan(*robot), "request.json")
+
     def test_its_path_is_refused_where_a_file_of_its_scene_has_changed(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         self.assertEqual(self.plan("scene.json", "-o", "a.json").returncode, 0)

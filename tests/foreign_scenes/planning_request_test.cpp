@@ -1,5 +1,6 @@
-// What a request tells beside its start and goal: the group that moves, and factors of limits.
+// What a request tells beside its start and goal: the group that moves, factors, and its time.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,28 @@ TEST(PlanningRequest, HasScalingFactors) {
   for (const char* wrong : {"-0.1", "1.5", ".nan", "fast"}) {
     EXPECT_THROW((void)read("max_acceleration_scaling_factor: " + std::string(wrong)), ParseError)
         << wrong;
+  }
+}
+
+TEST(PlanningRequest, HasTheTimeOfAPlanner) {
+  const auto time_with = [](const std::string& time) {
+    return parse_planning_request(
+               time + "goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}]}]",
+               "r.yaml", crane())
+        .planning_time;
+  };
+  EXPECT_EQ(time_with(""), std::nullopt);
+  EXPECT_EQ(time_with("allowed_planning_time: 0.0\n"), std::nullopt);  // A message's default.
+  EXPECT_EQ(time_with("allowed_planning_time: 2.5\n"), 2.5);
+  for (const char* wrong : {"-1", ".nan", ".inf", "soon", "[1]"}) {
+    try {
+      (void)time_with(std::string("allowed_planning_time: ") + wrong + "\n");
+      ADD_FAILURE() << wrong;
+    } catch (const ParseError& error) {
+      EXPECT_NE(std::string(error.what()).find("r.yaml"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("allowed_planning_time"), std::string::npos)
+          << error.what();
+    }
   }
 }
 

@@ -236,6 +236,19 @@ double read_scaling(const JsonValue& request, const char* key, const JsonReader&
   return factor > 0.0 ? factor : 1.0;
 }
 
+/// Reads the time that a planner may take; 0, as messages have it unset, stands for none.
+std::optional<double> read_planning_time(const JsonValue& request, const JsonReader& read) {
+  const JsonValue* value = find(std::get<JsonObject>(request.value), "allowed_planning_time");
+  if (value == nullptr) {
+    return std::nullopt;
+  }
+  const double time = read.number(*value);
+  if (!(time >= 0.0)) {
+    read.fail_expected("a number > 0, or 0 for the default", *value);
+  }
+  return time > 0.0 ? std::optional(time) : std::nullopt;
+}
+
 /// Reads the positions that the joints shall reach.
 detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotModel& robot,
                                      const MovedGroup& group, const JsonReader& read) {
@@ -344,6 +357,7 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
   if (const JsonValue* speed = find(std::get<JsonObject>(request.value), "max_cartesian_speed")) {
     result.cartesian_speed = read.not_negative(*speed);
   }
+  result.planning_time = read_planning_time(request, read);
   const MovedGroup group(request, robot, groups, read);
   std::vector<std::string> fixed;
   if (const JsonValue* state = find_filled(request, "start_state")) {

@@ -69,9 +69,11 @@ struct PlanningRequest {
   /// [m]  Bounds of the positions that planar and floating joints of the goals or of the group
   /// have, by coordinate: `workspace_parameters`.
   std::map<std::string, std::array<double, 2>> bounds = {};
-  double velocity_scaling = 1.0;           ///< [-]  Factor of the velocity limits; in (0, 1].
-  double acceleration_scaling = 1.0;       ///< [-]  Factor of the acceleration limits; in (0, 1].
-  double cartesian_speed = 0.0;            ///< [m/s]  Most of a link's speed; 0: unlimited.
+  double velocity_scaling = 1.0;      ///< [-]  Factor of the velocity limits; in (0, 1].
+  double acceleration_scaling = 1.0;  ///< [-]  Factor of the acceleration limits; in (0, 1].
+  double cartesian_speed = 0.0;       ///< [m/s]  Most of a link's speed; 0: unlimited.
+  /// [s]  Most time of a planner, `allowed_planning_time`; > 0. None where it is not set.
+  std::optional<double> planning_time = {};
   Pose base;                               ///< Pose of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< Notes for the user about the file.
 };
@@ -101,7 +103,8 @@ struct PlanningRequest {
 /// Reads a request. Each of its goals has positions of joints, or the pose of a link.
 ///
 /// Positions of fixed joints are left out with a warning. A quaternion of zeros is the identity,
-/// with a warning, too. A scaling factor of 0 counts as 1, as in MoveIt.
+/// with a warning, too. A scaling factor of 0 counts as 1, as in MoveIt. A planning time of 0
+/// counts as one that is not set.
 ///
 /// @param groups  of the robot's SRDF, for `group_name`. A goal of joints may do without them, and
 ///                names joints of the group alone

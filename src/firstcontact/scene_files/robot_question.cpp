@@ -172,7 +172,10 @@ class SceneBuilder {
 
   /// The question for a path to any goal of a request.
   static PlanQuestion question_of(const PlanningRequest& request) {
-    PlanQuestion plan{.robots = {0}, .joints = request.joints, .bounds = request.bounds};
+    PlanQuestion plan{.robots = {0},
+                      .joints = request.joints,
+                      .bounds = request.bounds,
+                      .time = request.planning_time};
     for (const RequestGoal& goal : request.goals) {
       if (goal.link) {
         plan.link_goals.push_back(*goal.link);
