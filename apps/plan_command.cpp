@@ -96,6 +96,7 @@ class Plan {
     progress_.doing("planning");
     const PlanResult result =
         in_file(source_, [&] { return plan_path(scene.plan, scene.start, scene.goals, options); });
+    was_stopped_ = options.stop.stop_requested();
     return answer(scene, options, result);
   }
 
@@ -126,6 +127,9 @@ class Plan {
     }
     ShapeCache cache;
     ScenePlan made = make_scene_plan(std::move(scene), question, cache, interrupt_.token());
+    if (!arguments_.scene.empty()) {
+      require_places(made, question);  // Requests and states have no keys of a plan.
+    }
     require_goals_apart(made);
     return made;
   }
@@ -180,13 +184,16 @@ class Plan {
       if (arguments_.json) {
         std::fwrite(text.data(), 1, text.size(), stdout);
       }
+      if (arguments_.json && was_stopped_) {
+        say_on_stderr(visible(source_) + ": the best path so far, when it was stopped\n");
+      }
     }
     has_page_ = write_page_of(scene, result, path);
     if (!arguments_.json) {
       say(describe(scene, options, result, path));
     } else if (!path) {
       say(failed_plan_json(scene, result));
-      say_on_stderr(visible(describe_failure(scene, options, result)) + '\n');
+      say_on_stderr(visible(describe_failure(scene, result)) + '\n');
     }
     flush_stdout();
     return result.verdict == PlanVerdict::proven        ? ExitStatus::free
@@ -267,11 +274,11 @@ class Plan {
     return first && *first != cost ? fmt::format(" ({:.6g} before it was shortened)", *first) : "";
   }
 
-  [[nodiscard]] std::string describe_failure(const ScenePlan& scene, const PlanOptions& options,
+  [[nodiscard]] std::string describe_failure(const ScenePlan& scene,
                                              const PlanResult& result) const {
     return fmt::format("{}: no path was found in {}{}; most in the way: {}", source_,
                        time_text(result.statistics.seconds),
-                       options.stop.stop_requested() ? ", when it was stopped" : "",
+                       was_stopped_ ? ", when it was stopped" : "",
                        blocking_text(scene, result.statistics));
   }
 
@@ -283,7 +290,7 @@ class Plan {
       text += answer_line(label, value);
     };
     if (!path) {
-      text = visible(describe_failure(scene, options, result)) + '\n';
+      text = visible(describe_failure(scene, result)) + '\n';
     } else {
       text = fmt::format("{}: {}\n", visible(source_),
                          path->is_proven ? "a path to the goal, proven edge by edge"
@@ -311,9 +318,11 @@ class Plan {
       line("in the way", blocking_text(scene, result.statistics));
     }
     const PlanStatistics& counts = result.statistics;
-    line("time", fmt::format("{}; {} checked, {} undecided, {} in trees", time_text(counts.seconds),
-                             counted(counts.edges_checked, "edge"), counts.undecided,
-                             counted(counts.nodes, "configuration")));
+    line("time",
+         fmt::format("{}{}; {} checked, {} undecided, {} in trees", time_text(counts.seconds),
+                     path && was_stopped_ ? ", when it was stopped" : "",
+                     counted(counts.edges_checked, "edge"), counts.undecided,
+                     counted(counts.nodes, "configuration")));
     line("planner",
          fmt::format("{}, seed {}", kPlannerWords.at(static_cast<std::size_t>(options.planner)),
                      options.seed));
@@ -346,6 +355,7 @@ class Plan {
   std::vector<OutputFile> outputs_;
   std::string viewer_;  // Only where a page is wanted.
   bool has_page_ = false;
+  bool was_stopped_ = false;
 };
 
 void require_one_plan(const Arguments& arguments) {

@@ -212,7 +212,7 @@ class Plan(tool_test.ToolTest):
             (scene({"goal": GOAL}), ["what moves"]),
             (scene({"goal": {"y": 1}}, [WALL], **of_robot), ['"y"']),
             (scene({"goal": {"x": 2.5}}, [WALL], **of_robot), ['"x"', "2.5", "limits"]),
-            (scene({"start": {"x": -3}, "goal": {"x": 1}}, [WALL], **of_robot), ["the start", '"x"']),
+            (scene({"start": {"x": -3}, "goal": {"x": 1}}, [WALL], **of_robot), ["plan.start", '"x"']),
             (scene({"body": "peg", "goal": GOAL}, [PEG, {**WALL, "motion": {
                 "type": "constant_velocity", "from": {}, "translation": [0, 0, 1]}}]), ['"wall"', "moves"]),
         ]
@@ -450,6 +450,42 @@ class Plan(tool_test.ToolTest):
                       "[{joint_constraints: [{joint_name: x, position: 0.5}]}]")
             self.assert_refused_with(self.plan(*robot), "request.json")
 
+    def test_names_the_key_of_a_goal_beyond_a_limit(self):
+        self.file("gantry.urdf", URDF)
+        robots = [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1, "z": 0}}]
+        for plan, key in (({"goal": {"x": 2.5}}, "scene.json: plan.goal: joint \"x\" is at 2.5"),
+                          ({"goals": [{"x": 1}, {"x": 2.5}]}, "scene.json: plan.goals[1]: joint \"x\" is at 2.5"),
+                          ({"start": {"x": -3}, "goal": {"x": 1}}, "scene.json: plan.start: joint \"x\" is at -3")):
+            self.file("scene.json", scene(plan, [WALL], robots=robots))
+            self.assert_refused_with(self.plan("scene.json"), key, "outside of its limits -2 to 2")
+
+    def test_says_that_a_scene_has_no_robots(self):
+        self.file("scene.json", scene({"robot": "g", "goal": {"x": 1}}))
+        self.assert_refused_with(self.plan("scene.json"), "plan.robot", '"g"', "the scene has no robots")
+
+    def test_plans_retimes_and_verifies_with_a_load_that_touches_links(self):
+        self.file("hand.urdf", URDF.replace("</robot>", """<link name="finger"><collision><geometry>
+            <box size="0.02 0.1 0.1"/></geometry></collision></link><joint name="f" type="fixed"><parent link="tool"/>
+            <child link="finger"/><origin xyz="0.115 0 -0.16"/></joint></robot>"""))
+        load = {"name": "load", "shape": {"box": {"size": [0.22, 0.1, 0.1]}}}
+        post = {"name": "post", "shape": {"box": {"size": [0.02, 1, 0.6]}}}
+        held = {"body": "load", "link": "tool", "pose": {"position": [0, 0, -0.15]}}
+        robot = {"name": "g", "urdf": "hand.urdf", "state": {"x": -0.6, "z": 0}}
+        question = {"goal": {"x": 0.6, "z": 0}, "time": 60}
+        self.file("scene.json", scene(question, [load, post], robots=[{**robot, "attached": [held]}]))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "finger", "load")
+        self.file("scene.json", scene(question, [load, post],
+                                      robots=[{**robot, "attached": [{**held, "touch_links": ["finger"]}]}]))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        path = json.loads((self.folder / "path.json").read_text())
+        # The load is as low as 0.2 m below the tool, and the post 0.3 m high.
+        self.assertGreater(max(z for _, z in path["waypoints"]), 0.5)
+        self.assertEqual(self.run_tool("verify", "path.json", "--scene", "scene.json").returncode, 0)
+        result = self.run_tool("retime", "path.json", "--max-acceleration", "3", "-o", "motion.csv")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertTrue((self.folder / "motion.csv").exists())
+
     def test_its_path_is_refused_where_a_file_of_its_scene_has_changed(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         self.assertEqual(self.plan("scene.json", "-o", "a.json").returncode, 0)
@@ -586,6 +622,34 @@ class Plan(tool_test.ToolTest):
         process.communicate(timeout=60)
         self.assertIn(process.returncode, (1, -signal.SIGINT))
         self.assertFalse((self.folder / "path.json").exists())
+
+    def test_keeps_the_best_path_when_it_is_interrupted(self):
+        # Many links among many balls: edges take long, so that the search for shorter paths does.
+        ball = "<collision><geometry><sphere radius=\"0.04\"/></geometry></collision>"
+        links = ['<link name="l0"/>', *(f'<link name="l{k}">{ball}</link>' for k in range(1, 21))]
+        joints = [f"""<joint name="j{k}" type="revolute"><parent link="l{k}"/><child link="l{k + 1}"/>
+            <origin xyz="0.1 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>"""
+                  for k in range(20)]
+        self.file("chain.urdf", "".join(['<robot name="chain">', *links, *joints, "</robot>"]))
+        # One is in the way, and the others are above and below.
+        balls = [{"name": f"b{k}", "shape": {"sphere": {"radius": 0.05}},
+                  "pose": {"position": [0.1 * k, 0.2, 0 if k == 14 else 0.15 * (-1) ** k]}} for k in range(20)]
+        plan = {"goal": {"j0": 0.4, **{f"j{k}": 0 for k in range(1, 20)}}, "planner": "lazy_prm_star", "time": 1000}
+        self.file("scene.json", scene(plan, balls, robots=[{"name": "c", "urdf": "chain.urdf"}]))
+        # The signal has to come behind the first path, and before the search ends by itself.
+        wait = 0.5
+        for _ in range(40):
+            process = self.start("plan", "scene.json", "-o", "path.json")
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            out, _ = process.communicate(timeout=120)
+            if "when it was stopped" in out and process.returncode == 0:
+                break
+            wait = wait / 1.5 if process.returncode == 0 else wait * 1.3
+        self.assertEqual(process.returncode, 0, out)
+        self.assertIn("proven edge by edge", out)
+        self.assertIn("when it was stopped", out)
+        self.assertEqual(self.run_tool("verify", "path.json", "--scene", "scene.json").returncode, 0)
 
     def test_ends_when_it_is_interrupted_while_it_looks_for_places_of_a_pose(self):
         links = [f'<link name="l{k}"/>' for k in range(39)]

@@ -318,6 +318,24 @@ void require_goals_apart(const ScenePlan& scene) {
   }
 }
 
+void require_places(const ScenePlan& scene, const PlanQuestion& question) {
+  const ConfigurationSpace& space = scene.plan.space;
+  const bool has_start = !question.start.empty() || question.start_pose;
+  if (const std::optional<std::string> defect = space.defect(scene.start)) {
+    refuse_plan((has_start ? "plan.start: " : "the start: ") + *defect);
+  }
+  // Goals of joints come first: their numbers are those of the file where no goal is a pose.
+  const std::size_t given =
+      question.link_goals.empty() ? scene.goals.size() : question.goals.size();
+  for (std::size_t k = 0; k < given; ++k) {
+    if (const std::optional<std::string> defect = space.defect(scene.goals[k])) {
+      const bool is_alone = given == 1 && question.link_goals.empty();
+      const std::string number = question.link_goals.empty() ? "[" + std::to_string(k) + "]" : "";
+      refuse_plan("plan." + (is_alone ? "goal" : "goals" + number) + ": " + *defect);
+    }
+  }
+}
+
 PlanQuestion question_of_trajectory(const Scene& scene) {
   if (scene.robots.size() != 1) {
     refuse_plan("expected a scene with one robot, got " + std::to_string(scene.robots.size()));

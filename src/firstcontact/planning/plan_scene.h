@@ -53,6 +53,13 @@ struct ScenePlan {
 /// @throws std::invalid_argument  names the goal
 FIRSTCONTACT_API void require_goals_apart(const ScenePlan& scene);
 
+/// Refuses a start or a goal that is none, as beyond a limit, by the key of the scene that has it.
+///
+/// plan_path() refuses it, too, but knows no keys.
+///
+/// @throws std::invalid_argument  names the key and the coordinate
+FIRSTCONTACT_API void require_places(const ScenePlan& scene, const PlanQuestion& question);
+
 /// The question from the first to the last point of the trajectory of a scene's only robot.
 ///
 /// @throws std::invalid_argument if there is no such robot, or its trajectory has no two points

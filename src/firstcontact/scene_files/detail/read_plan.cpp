@@ -85,6 +85,10 @@ class PlanReader {
     const std::string& name = read_.string(value, "the name of a " + what);
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    if (all.empty()) {
+      read_.fail(value, "expected a scene with the " + what + " " + in_quotes(name) +
+                            ", but the scene has no " + (what == "body" ? "bodies" : "robots"));
+    }
     if (found == all.end()) {
       std::vector<std::string_view> names;
       for (const Named& one : all) {
