@@ -63,7 +63,7 @@ PlanScene wheel(const std::vector<double>& angles) {
   const std::size_t index = scene.add_robot("wheel", rest);
   return {.scene = std::move(scene),
           .robots = {index},
-          .space = ConfigurationSpace::of_joints(model, names, all_at_rest(rest))};
+          .space = ConfigurationSpace::of_joints(model, names, detail::given_motions(rest))};
 }
 
 TEST(EdgeChecker, SeesAPlateBetweenAnyTwoSamples) {
@@ -523,7 +523,7 @@ TEST(EdgeChecker, RefusesWhatMovesByItself) {
 
   PlanScene two = with_gantry(RobotScene());
   const RobotMotion rest = at_rest(gantry());
-  two.scene.add_robot("lift", RobotMotion(rest.model(), all_at_rest(rest),
+  two.scene.add_robot("lift", RobotMotion(rest.model(), detail::given_motions(rest),
                                           Motion::constant_velocity(Pose{}, Vector3d::UnitZ())));
   EXPECT_THROW(EdgeChecker(std::move(two)), std::invalid_argument);
 

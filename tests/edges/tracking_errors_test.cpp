@@ -32,7 +32,7 @@ PlanScene erring_arm(double error) {
   }
   return {.scene = std::move(scene),
           .robots = {arm},
-          .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+          .space = ConfigurationSpace::of_joints(rest.model(), names, detail::given_motions(rest))};
 }
 
 /// An edge that passes the ball as near as a checker takes for free, to 1e-12 rad.

@@ -161,7 +161,7 @@ Vector3d below(const Vector3d& outward) {
 
 TEST(ForceContinuity, IsStillWhileHeldAtEveryEdgeAndCornerOfACube) {
   for (const bool is_ball : {true, false}) {
-    for (int k = 0; k < 27; k += rounds(1, 6)) {
+    for (int k = 0; k < 27; k += test::rounds(1, 6)) {
       const Vector3d outward(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
       if (outward.squaredNorm() > 1.5) {  // No face, and not the middle.
         EXPECT_LT(held_swing(is_ball, outward, below(outward)), kHeldShare)

@@ -106,7 +106,7 @@ ConfigurationSpace BoxArm::space() const {
       names.push_back(joint_name(k));
     }
   }
-  return ConfigurationSpace::of_joints(rest_.model(), names, all_at_rest(rest_));
+  return ConfigurationSpace::of_joints(rest_.model(), names, detail::given_motions(rest_));
 }
 
 std::vector<double> BoxArm::positions(std::span<const double> planned) const {

@@ -268,7 +268,7 @@ TEST(TangentSpace, ReachesAsFarWhereverARobotStarts) {
   const PlanScene plan{
       .scene = std::move(scene),
       .robots = {arm},
-      .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+      .space = ConfigurationSpace::of_joints(rest.model(), names, detail::given_motions(rest))};
   EXPECT_NEAR(TangentSpace(plan).reach(), 2.05, 1e-9);
 }
 

@@ -257,7 +257,7 @@ PlanScene spinner(RobotScene scene) {
   const std::size_t index = scene.add_robot("spinner", rest);
   return {.scene = std::move(scene),
           .robots = {index},
-          .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+          .space = ConfigurationSpace::of_joints(rest.model(), names, detail::given_motions(rest))};
 }
 
 TEST(OmplContacts, SlideAcrossHalfATurn) {

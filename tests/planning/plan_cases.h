@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/planning/plan_path.h>
+#include <firstcontact/robot/detail/given_motions.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/robot_check/touching_links.h>
 
@@ -39,16 +39,6 @@ inline RobotModel gantry() {
   return RobotModel(robot);
 }
 
-inline std::map<std::string, JointMotion> all_at_rest(const RobotMotion& motion) {
-  std::map<std::string, JointMotion> held;
-  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
-    if (const auto given = motion.given(joint)) {
-      held.emplace(motion.model().joints()[joint].name, *given);
-    }
-  }
-  return held;
-}
-
 /// Adds the gantry to a scene of bodies.
 inline PlanScene with_gantry(RobotScene scene) {
   const RobotMotion rest = at_rest(gantry());
@@ -56,7 +46,7 @@ inline PlanScene with_gantry(RobotScene scene) {
   const std::size_t robot = scene.add_robot("gantry", rest);
   return {.scene = std::move(scene),
           .robots = {robot},
-          .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+          .space = ConfigurationSpace::of_joints(rest.model(), names, detail::given_motions(rest))};
 }
 
 /// Makes a wall in the plane x = 0, 10 um thick, from -2.2 to 2.2 m.

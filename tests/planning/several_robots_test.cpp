@@ -35,7 +35,7 @@ PlanScene two_gantries(RobotScene scene = RobotScene()) {
   const std::vector<std::string> joints = {"x", "y", "z"};
   const std::vector<std::string> names = {"a", "b"};
   const std::vector<ConfigurationSpace> spaces(
-      2, ConfigurationSpace::of_joints(rest.model(), joints, all_at_rest(rest)));
+      2, ConfigurationSpace::of_joints(rest.model(), joints, detail::given_motions(rest)));
   std::vector<std::size_t> robots;
   for (const std::string& name : names) {
     robots.push_back(scene.add_robot(name, rest));
@@ -91,7 +91,7 @@ TEST(SeveralRobots, RefuseWhatIsNoMover) {
   const RobotMotion rest = at_rest(gantry());
   const std::vector<std::string> joints = {"x"};
   const std::vector<ConfigurationSpace> one = {
-      ConfigurationSpace::of_joints(rest.model(), joints, all_at_rest(rest))};
+      ConfigurationSpace::of_joints(rest.model(), joints, detail::given_motions(rest))};
   const std::vector<std::string> two_names = {"a", "b"};
   EXPECT_THROW((void)ConfigurationSpace::joined(two_names, one), std::invalid_argument);
   EXPECT_THROW((void)ConfigurationSpace::joined({}, {}), std::invalid_argument);

@@ -286,7 +286,7 @@ TEST(RunFile, KnowsWhereItWasCutOff) {
   const std::string text = example_run(3);
   const std::size_t header = text.find('\n') + 1;
   for (std::size_t size = header; size <= text.size();
-       size += static_cast<std::size_t>(rounds(1, 7))) {
+       size += static_cast<std::size_t>(test::rounds(1, 7))) {
     const std::string part = text.substr(0, size);
     std::istringstream stream(part);
     RunReader reader(stream, "run.jsonl");

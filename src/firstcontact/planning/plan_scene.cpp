@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -23,7 +22,9 @@
 #include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/planning/detail/planned_speeds.h>
 #include <firstcontact/planning/detail/resting_scene.h>
+#include <firstcontact/robot/detail/given_motions.h>
 #include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/detail/resting_position.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/version.h>
@@ -68,20 +69,11 @@ bool freeze_held(const LoadedScene& loaded, Scene& scene) {
 }
 
 double start_of(const SceneRobot& robot, const JointCoordinate& coordinate) {
-  const auto found = robot.state.find(coordinate_name(robot.model, coordinate));
-  return found != robot.state.end()
-             ? found->second
-             : default_position(robot.model.joints()[coordinate.joint], coordinate.index);
+  return detail::resting_position(robot, coordinate_name(robot.model, coordinate));
 }
 
-std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
-  std::map<std::string, JointMotion> held;
-  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
-    if (const std::optional<JointMotion> given = motion.given(joint)) {
-      held.emplace(motion.model().joints()[joint].name, *given);
-    }
-  }
-  return held;
+std::string key_of_goal(const ScenePlan& scene, std::size_t k) {
+  return scene.goals.size() == 1 ? "plan.goal" : "plan.goals[" + std::to_string(k) + "]";
 }
 
 void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
@@ -107,8 +99,8 @@ NamedSpaces spaces_of_robots(const LoadedScene& loaded, const PlanQuestion& ques
     if (joints[k].empty()) {
       refuse_plan("robot " + in_quotes(all.names.back()) + ": no goal names a joint that moves");
     }
-    all.spaces.push_back(ConfigurationSpace::of_joints(motion.model(), joints[k],
-                                                       held_motions(motion), motion.base()));
+    all.spaces.push_back(ConfigurationSpace::of_joints(
+        motion.model(), joints[k], detail::given_motions(motion), motion.base()));
   }
   return all;
 }
@@ -311,28 +303,22 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
 void require_goals_apart(const ScenePlan& scene) {
   const auto found = std::ranges::find(scene.goals, scene.start);
   if (!scene.plan.times && found != scene.goals.end()) {
-    const std::string which = scene.goals.size() == 1
-                                  ? "goal"
-                                  : "goals[" + std::to_string(found - scene.goals.begin()) + "]";
-    refuse_plan("plan." + which + ": expected a goal apart from the start, got the start itself");
+    refuse_plan(key_of_goal(scene, static_cast<std::size_t>(found - scene.goals.begin())) +
+                ": expected a goal apart from the start, got the start itself");
   }
 }
 
 void require_places(const ScenePlan& scene, const PlanQuestion& question) {
-  const ConfigurationSpace& space = scene.plan.space;
-  const bool has_start = !question.start.empty() || question.start_pose;
-  if (const std::optional<std::string> defect = space.defect(scene.start)) {
-    refuse_plan((has_start ? "plan.start: " : "the start: ") + *defect);
-  }
-  // Goals of joints come first: their numbers are those of the file where no goal is a pose.
-  const std::size_t given =
-      question.link_goals.empty() ? scene.goals.size() : question.goals.size();
-  for (std::size_t k = 0; k < given; ++k) {
-    if (const std::optional<std::string> defect = space.defect(scene.goals[k])) {
-      const bool is_alone = given == 1 && question.link_goals.empty();
-      const std::string number = question.link_goals.empty() ? "[" + std::to_string(k) + "]" : "";
-      refuse_plan("plan." + (is_alone ? "goal" : "goals" + number) + ": " + *defect);
+  const auto require = [&](const std::string& key, const Configuration& place) {
+    if (const std::optional<std::string> defect = scene.plan.space.defect(place)) {
+      refuse_plan(key + ": " + *defect);
     }
+  };
+  const bool has_start = !question.start.empty() || question.start_pose;
+  require(has_start ? "plan.start" : "the start", scene.start);
+  for (std::size_t k = 0; k < scene.goals.size(); ++k) {
+    // Among poses of links the numbers are not those of the file.
+    require(question.link_goals.empty() ? key_of_goal(scene, k) : "plan.goals", scene.goals[k]);
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/retiming/detail/held_stretches.h>
+#include <firstcontact/robot/detail/given_motions.h>
 #include <firstcontact/robot/rest.h>
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot/tracking_error.h>
@@ -130,17 +131,12 @@ RobotMotion within_positions(const RobotMotion& motion, const std::string& begin
   for (const Link& link : model.links()) {
     robot.links.push_back({.name = link.name});
   }
-  std::map<std::string, JointMotion> motions;
-  for (std::size_t joint = 0; joint < robot.joints.size(); ++joint) {
-    Joint& narrowed = robot.joints[joint];
+  for (Joint& narrowed : robot.joints) {
     if (const auto found = positions.find(begin + narrowed.name); found != positions.end()) {
       narrow(found->second, narrowed.limits);
     }
-    if (const std::optional<JointMotion> given = motion.given(joint)) {
-      motions.emplace(narrowed.name, *given);
-    }
   }
-  return {RobotModel(std::move(robot)), std::move(motions), motion.base()};
+  return {RobotModel(std::move(robot)), detail::given_motions(motion), motion.base()};
 }
 
 /// The limits that a robot leaves and that retiming can change.
