@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kFastestHand = 20.0;  // [m/s]
 
+/// Also for times that lie farther apart than a signed number can tell.
+std::uint64_t nanoseconds_between(std::int64_t from, std::int64_t to) {
+  return static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from);
+}
+
 /// The speeds of a recording at which its device moved.
 struct Speeds {
   std::size_t moving = 0;
@@ -67,7 +72,7 @@ std::string recording_warning(const std::string& word, const Recording& recordin
     } else if (k > 0 && sample.time_ns > recording.samples[k - 1].time_ns) {
       const DeviceState& last = recording.samples[k - 1];
       speeds.add(1e9 * scale * (sample.X_DH.position - last.X_DH.position).norm() /
-                 static_cast<double>(sample.time_ns - last.time_ns));
+                 static_cast<double>(nanoseconds_between(last.time_ns, sample.time_ns)));
     }
   }
   if (2 * speeds.too_fast <= speeds.moving) {
