@@ -124,14 +124,16 @@ class OmplStates {
   /// and never ask again. Turns of 1e-12 rad stay within the hair of clearance of an edge.
   [[nodiscard]] bool leaves_out_turn(const Configuration& from, const Configuration& to) const {
     return std::any_of(slerps_.begin(), slerps_.end(), [&](std::size_t first) {
+      double dot = 0.0;
       double minus = 0.0;
       double plus = 0.0;
       for (std::size_t k = first; k < first + 4; ++k) {
+        dot += from[k] * to[k];
         minus += (from[k] - to[k]) * (from[k] - to[k]);
         plus += (from[k] + to[k]) * (from[k] + to[k]);
       }
-      const double apart = std::sqrt(std::min(minus, plus));
-      return 5e-13 < apart && apart < 5e-5;
+      // Its dot product is of the numbers as they are: lengths may be 1 to a millionth.
+      return std::sqrt(std::min(minus, plus)) > 5e-13 && std::abs(dot) > 1.0 - 2e-9;
     });
   }
 
