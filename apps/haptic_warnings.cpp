@@ -1,7 +1,6 @@
 #include "haptic_warnings.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
