@@ -14,7 +14,7 @@ namespace firstcontact::app {
 
 /// Lists what a scene asks of a device beyond the stiffness and the damping that it declares.
 ///
-/// @param scale  [-]  DeviceMapping::scale. The device feels the spring's stiffness times its
+/// @param scale  [-]  DeviceMapping::scale; the device feels the spring's stiffness times its
 /// square
 [[nodiscard]] std::vector<std::string> device_warnings(const HapticTool& tool, double scale,
                                                        const DeviceCapabilities& device);

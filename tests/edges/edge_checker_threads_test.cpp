@@ -3,18 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
 
 #include "planning/plan_cases.h"
+#include "support/at_once.h"
 #include "support/random.h"
 #include "support/rounds.h"
 
@@ -64,23 +63,13 @@ TEST(EdgeCheckerThreads, AnswerAsOne) {
   }
   // All threads ask the same at about the same time, one of them from the back.
   std::array<std::vector<Answer>, kThreads> answers;
-  std::atomic<std::size_t> ready = 0;
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t thread = 0; thread < kThreads; ++thread) {
-      threads.emplace_back([&, thread] {
-        answers[thread].resize(count);
-        ++ready;
-        while (ready < kThreads) {
-          std::this_thread::yield();
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-          const std::size_t edge = thread == 0 ? k : count - 1 - k;
-          answers[thread][edge] = ask(checker, places[edge], places[edge + 1]);
-        }
-      });
+  at_once(kThreads, [&](std::size_t thread) {
+    answers[thread].resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t edge = thread == 0 ? k : count - 1 - k;
+      answers[thread][edge] = ask(checker, places[edge], places[edge + 1]);
     }
-  }
+  });
   for (const std::vector<Answer>& several : answers) {
     EXPECT_EQ(several, alone);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,13 @@ TEST(StalledContactLoop, ForceDecaysAndReturnsWithoutAKick) {
     }
     EXPECT_NEAR(last.z(), 1000.0 * (0.002 - 1e-3 * std::sin(0.004 * 7999)), 0.02) << stall_ms;
   }
+}
+
+TEST(StalledContactLoop, StallsForTenSecondsAtMost) {
+  HapticSession session(cube_on_floor(), {});
+  EXPECT_THROW(session.stall_contacts(-1), std::invalid_argument);
+  EXPECT_THROW(session.stall_contacts(10'000'000'001), std::invalid_argument);
+  EXPECT_NO_THROW(session.stall_contacts(10'000'000'000));
 }
 
 }  // namespace

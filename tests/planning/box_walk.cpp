@@ -64,27 +64,34 @@ RobotModel model_of(const std::vector<ArmJoint>& joints) {
   return RobotModel(robot);
 }
 
-}  // namespace
+constexpr double kMet = 1e-12;  // [m]
 
-double gap(const PlacedBox& A, const PlacedBox& B) {
+/// Bounds the distance of two boxes. Those of far ones are of their spheres and middles.
+oracle::ConvexDistance gap(const PlacedBox& A, const PlacedBox& B) {
   constexpr double kFar = 0.1;  // [m]
   const double between = (A.X_WB.translation() - B.X_WB.translation()).norm();
   const double spheres = between - A.half.norm() - B.half.norm();
-  return spheres > kFar ? spheres : oracle::convex_distance(support_of(A), support_of(B)).lower;
+  return spheres > kFar ? oracle::ConvexDistance{spheres, between}
+                        : oracle::convex_distance(support_of(A), support_of(B));
 }
+
+}  // namespace
 
 WalkedEdge walk(const MovingBoxes& boxes, double near, double finest) {
   WalkedEdge found;
   for (double share = 0.0;;) {
     const std::vector<PlacedBox> at = boxes.at(share);
     double least = 10.0;
+    bool has_met = false;
     for (const auto& [a, b] : boxes.pairs) {
-      least = std::min(least, gap(at[a], at[b]));
+      const oracle::ConvexDistance between = gap(at[a], at[b]);
+      least = std::min(least, between.lower);
+      has_met = has_met || between.upper <= kMet;
     }
     if (!found.near_from && least <= near + boxes.speed * finest) {
       found.near_from = share;
     }
-    if (least <= 0.0) {
+    if (has_met) {
       found.met_by = share;
       return found;
     }

@@ -24,9 +24,6 @@ struct PlacedBox {
   Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< [m]  Half of its sizes.
 };
 
-/// [m]  The distance of two boxes; 0 where they meet. Far boxes have a lower bound of it.
-[[nodiscard]] double gap(const PlacedBox& A, const PlacedBox& B);
-
 /// Boxes that move along an edge.
 struct MovingBoxes {
   std::function<std::vector<PlacedBox>(double share)> at;
@@ -38,7 +35,8 @@ struct MovingBoxes {
 struct WalkedEdge {
   /// [-]  Before this share all pairs are farther apart than `near`. None where they always are.
   std::optional<double> near_from = {};
-  std::optional<double> met_by = {};  ///< [-]  At this share a pair meets.
+  /// [-]  At this share a pair is within 1e-12 m, the rounding of its distance.
+  std::optional<double> met_by = {};
 };
 
 /// Walks along an edge in steps that no speed can leap over.

@@ -28,11 +28,6 @@ namespace og = ompl::geometric;
 /// A gantry with an experience of an empty scene, in which a wall with a window appears.
 class OmplExperience : public ::testing::Test {
  protected:
-  OmplExperience() {
-    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-    ompl::RNG::setSeed(1);
-  }
-
   /// A path through a place in the plane of the wall.
   og::PathGeometric old_path(const Configuration& middle) const {
     og::PathGeometric path(proven.si);
@@ -55,14 +50,7 @@ class OmplExperience : public ::testing::Test {
   }
 
   void expect_repaired_path(ob::Planner& planner) const {
-    const ob::ProblemDefinitionPtr problem = problem_between(proven, start, goal);
-    planner.setProblemDefinition(problem);
-    planner.setup();
-    const ob::PlannerTerminationCondition found([&] { return problem->hasExactSolution(); });
-    planner.solve(
-        ob::plannerOrTerminationCondition(found, ob::timedPlannerTerminationCondition(30.0)));
-    ASSERT_TRUE(problem->hasExactSolution());
-    const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+    const og::PathGeometricPtr path = solve(planner, problem_between(proven, start, goal));
     ASSERT_NE(path, nullptr);
     EXPECT_EQ(unproven_edge(proven, *path), std::nullopt);
   }

@@ -81,7 +81,6 @@ TEST(OmplJoints, ThatMimicAndTurnShortAreProvenAsTheyMove) {
       PlanScene{.scene = std::move(scene), .robots = {number}, .space = arm.space()});
   ASSERT_EQ(proven.edges->space().size(), 3u);
   const OmplStates states(*proven.space, proven.edges->space());
-  ompl::RNG::setSeed(5);
   ob::ScopedState<> from(proven.space);
   ob::ScopedState<> to(proven.space);
   ob::ScopedState<> between(proven.space);
@@ -225,7 +224,7 @@ TEST(OmplCompound, OfJointsAndTwoPosesIsProvenWhateverItsWeights) {
                                               .robots = std::move(robots),
                                               .space = ConfigurationSpace::joined(names, spaces)});
   ASSERT_EQ(edges->space().size(), 21u);
-  ompl::RNG::setSeed(6);
+  seed_ompl();
   Random random(6);
   int blocked = 0;
   int all = 0;

@@ -49,26 +49,12 @@ std::vector<Across> both_sides() {
 
 /// A path of RRT, which has many waypoints.
 og::PathGeometricPtr found_path(const Proven& proven, const Across& across) {
-  const ob::ProblemDefinitionPtr problem = problem_between(proven, across.start, across.goal);
   og::RRT planner(proven.si);
   planner.setRange(0.3);
-  planner.setProblemDefinition(problem);
-  planner.setup();
-  planner.solve(ob::timedPlannerTerminationCondition(30.0));
-  return problem->hasExactSolution()
-             ? std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath())
-             : nullptr;
+  return solve(planner, problem_between(proven, across.start, across.goal));
 }
 
-class OmplPaths : public ::testing::Test {
- protected:
-  OmplPaths() {
-    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-    ompl::RNG::setSeed(1);
-  }
-};
-
-TEST_F(OmplPaths, AreProvenAfterEachStepOfTheSimplifier) {
+TEST(OmplPaths, AreProvenAfterEachStepOfTheSimplifier) {
   using Step = std::function<void(og::PathSimplifier&, og::PathGeometric&)>;
   const std::vector<std::pair<std::string, Step>> steps = {
       {"reduceVertices", [](auto& by, auto& path) { by.reduceVertices(path); }},
@@ -96,7 +82,7 @@ TEST_F(OmplPaths, AreProvenAfterEachStepOfTheSimplifier) {
   }
 }
 
-TEST_F(OmplPaths, AreProvenAsHybrids) {
+TEST(OmplPaths, AreProvenAsHybrids) {
   for (const Across& across : both_sides()) {
     const Proven proven(across.scene);
     og::PathHybridization hybrids(proven.si);
@@ -116,7 +102,7 @@ TEST_F(OmplPaths, AreProvenAsHybrids) {
   }
 }
 
-TEST_F(OmplPaths, AreProvenOnceRepaired) {
+TEST(OmplPaths, AreProvenOnceRepaired) {
   for (const Across& across : both_sides()) {
     const Proven proven(across.scene);
     const og::PathGeometricPtr found = found_path(proven, across);

@@ -22,19 +22,20 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-/// The end of each planner's search.
-struct Patience {
-  int questions = 0;     ///< Number of times that the planner may ask whether to go on.
-  double seconds = 0.0;  ///< [s]
-};
+// The number of times that a planner may ask whether to go on; the clock only ends one that hangs.
+constexpr int kQuestions = 3'000;
+constexpr double kSeconds = 20.0;
 
 /// Runs all planners, and proves their paths; returns those that did not get to the goal.
-std::vector<std::string> unsolved_after(const PlanScene& scene, const Configuration& start,
-                                        const Configuration& goal, const Patience& patience) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  ompl::RNG::setSeed(1);
-  std::vector<std::string> unsolved;
+///
+/// @param left_out  the planner that does not run
+std::vector<std::string> unsolved(const PlanScene& scene, const Configuration& start,
+                                  const Configuration& goal, const std::string& left_out = "") {
+  std::vector<std::string> names;
   for (const auto& [name, make] : all_planners()) {
+    if (name == left_out) {
+      continue;
+    }
     const Proven proven(scene);
     const ob::ProblemDefinitionPtr problem = problem_between(proven, start, goal);
     const ob::PlannerPtr planner = make(proven.si);
@@ -42,36 +43,36 @@ std::vector<std::string> unsolved_after(const PlanScene& scene, const Configurat
     planner->setup();
     std::atomic<int> asked = 0;
     const ob::PlannerTerminationCondition done(
-        [&] { return problem->hasExactSolution() || ++asked > patience.questions; });
-    planner->solve(ob::plannerOrTerminationCondition(
-        done, ob::timedPlannerTerminationCondition(patience.seconds)));
+        [&] { return problem->hasExactSolution() || ++asked > kQuestions; });
+    planner->solve(
+        ob::plannerOrTerminationCondition(done, ob::timedPlannerTerminationCondition(kSeconds)));
     if (!problem->hasExactSolution()) {
-      unsolved.push_back(name);
+      names.push_back(name);
     }
     const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
     if (path) {
       EXPECT_EQ(unproven_edge(proven, *path), std::nullopt) << name;
     }
   }
-  return unsolved;
+  return names;
 }
 
 TEST(OmplPlanners, GiveProvenPathsOfJoints) {
-  const std::vector<std::string> unsolved =
-      unsolved_after(with_gantry(thin_wall(0.5)), {-1.5, 1.2, -0.7}, {1.5, 1.1, -0.9},
-                     {.questions = 1'000'000'000, .seconds = 3.0});
-  // Some need more time, or a rougher space, for their first path; most do not.
-  EXPECT_LE(unsolved.size(), all_planners().size() / 3) << ::testing::PrintToString(unsolved);
+  const std::vector<std::string> none =
+      unsolved(with_gantry(thin_wall(0.5)), {-1.5, 1.2, -0.7}, {1.5, 1.1, -0.9});
+  // SST needs more for its first path, and so may others.
+  EXPECT_LE(none.size(), 5u) << ::testing::PrintToString(none);
 }
 
-// A sheet of 10 um is across the straight way, and most ways around it are free.
+// A sheet of 10 um is across the straight way, and most ways around it are free. LazyLBTRRT may end
+// the program here, by an assertion of OMPL's own graph (LPAstarOnGraph::removeEdge).
 TEST(OmplPlanners, GiveProvenPathsOfABody) {
   RobotScene scene;
   scene.add_body("sheet", make_box({1e-5, 1.0, 1.0}));
-  const std::vector<std::string> unsolved = unsolved_after(
-      with_bar(std::move(scene), {0.05, 0.3, 0.05}), {-0.8, 0.1, 0.0, 1.0, 0.0, 0.0, 0.0},
-      {0.8, -0.1, 0.0, 0.8, 0.0, 0.0, 0.6}, {.questions = 3'000, .seconds = 20.0});
-  EXPECT_LE(unsolved.size(), all_planners().size() / 2) << ::testing::PrintToString(unsolved);
+  const std::vector<std::string> none =
+      unsolved(with_bar(std::move(scene), {0.05, 0.3, 0.05}), {-0.8, 0.1, 0.0, 1.0, 0.0, 0.0, 0.0},
+               {0.8, -0.1, 0.0, 0.8, 0.0, 0.0, 0.6}, "LazyLBTRRT");
+  EXPECT_LE(none.size(), 5u) << ::testing::PrintToString(none);
 }
 
 }  // namespace

@@ -8,11 +8,15 @@
 #include <optional>
 #include <utility>
 
+#include <ompl/base/Planner.h>
+#include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include <firstcontact/edges/edge_checker.h>
 
@@ -20,10 +24,23 @@
 
 namespace firstcontact::test {
 
+/// Fixes the seed of all of OMPL's random numbers, once, and keeps OMPL silent.
+///
+/// OMPL takes a seed only before its first random numbers, which the set-up of a space may draw.
+inline bool seed_ompl() {
+  static const bool is_done = [] {
+    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+    ompl::RNG::setSeed(1);
+    return true;
+  }();
+  return is_done;
+}
+
 /// A space of OMPL with proven edges.
 struct Proven {
   explicit Proven(PlanScene scene)
-      : edges(std::make_shared<EdgeChecker>(std::move(scene))),
+      : is_seeded(seed_ompl()),
+        edges(std::make_shared<EdgeChecker>(std::move(scene))),
         space(make_ompl_space(edges->space())),
         si(std::make_shared<ompl::base::SpaceInformation>(space)),
         validator(std::make_shared<ProvenEdges>(si, edges)) {
@@ -38,6 +55,7 @@ struct Proven {
     return made;
   }
 
+  bool is_seeded = false;  // First: before anything of OMPL is made.
   std::shared_ptr<EdgeChecker> edges;
   ompl::base::StateSpacePtr space;
   ompl::base::SpaceInformationPtr si;
@@ -74,6 +92,19 @@ inline ompl::base::ProblemDefinitionPtr problem_between(const Proven& proven,
   states.write(goal, to.get());
   problem->setStartAndGoalStates(from, to, threshold);
   return problem;
+}
+
+/// Lets a planner look for a path to the goal; null where it finds none in 30 s.
+inline std::shared_ptr<ompl::geometric::PathGeometric> solve(
+    ompl::base::Planner& planner, const ompl::base::ProblemDefinitionPtr& problem) {
+  planner.setProblemDefinition(problem);
+  planner.setup();
+  const ompl::base::PlannerTerminationCondition found([&] { return problem->hasExactSolution(); });
+  planner.solve(ompl::base::plannerOrTerminationCondition(
+      found, ompl::base::timedPlannerTerminationCondition(30.0)));
+  return problem->hasExactSolution()
+             ? std::dynamic_pointer_cast<ompl::geometric::PathGeometric>(problem->getSolutionPath())
+             : nullptr;
 }
 
 }  // namespace firstcontact::test

@@ -185,6 +185,46 @@ TEST(Ompl, RefusesATurnThatItLeavesOut) {
   }
 }
 
+// Quaternions have lengths that OMPL takes as 1. What is valid is turned by OMPL as by us; what is
+// refused is less than 2e-4 rad.
+TEST(Ompl, FollowsOrRefusesSmallTurns) {
+  const Proven proven(with_bar(RobotScene(), {0.1, 0.2, 0.3}));
+  const OmplStates states(*proven.space, proven.edges->space());
+  Random random(12);
+  int refused = 0;
+  int left_out = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Quaterniond start = random.rotation();
+    const double turn = random.logarithmic(1e-9, 1e-2);
+    const Eigen::Quaterniond end =
+        start * Eigen::Quaterniond(Eigen::AngleAxisd(turn, random.rotation().vec().normalized()));
+    const auto place = [&](const Eigen::Quaterniond& q) {
+      const double length = 1.0 + random.uniform(-9e-10, 9e-10);
+      return Configuration{0, 0, 0, length * q.w(), length * q.x(), length * q.y(), length * q.z()};
+    };
+    ob::State* from = proven.state(place(start));
+    ob::State* to = proven.state(place(end));
+    ob::State* quarter = proven.si->allocState();
+    ASSERT_TRUE(proven.space->satisfiesBounds(from) && proven.space->satisfiesBounds(to)) << k;
+    proven.space->interpolate(from, to, 0.25, quarter);
+    const Configuration q = states.read(quarter);
+    const Eigen::Quaterniond there = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized();
+    const double off = there.angularDistance(start.slerp(0.25, end));
+    left_out += off > 0.1 * turn ? 1 : 0;
+    if (proven.validator->checkMotion(from, to)) {
+      ASSERT_LT(off, 2e-8) << k << ' ' << turn;
+    } else {
+      ++refused;
+      ASSERT_LT(turn, 2e-4) << k;
+    }
+    for (ob::State* state : {from, to, quarter}) {
+      proven.si->freeState(state);
+    }
+  }
+  EXPECT_GT(left_out, 500);
+  EXPECT_GE(refused, left_out);
+}
+
 /// A small cube among bodies, whose edges are screws.
 PlanScene with_screws(RobotScene scene) {
   ConfigurationSpace space = ConfigurationSpace::of_body(

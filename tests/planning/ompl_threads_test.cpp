@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cstddef>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "planning/ompl_proven.h"
 #include "planning/plan_cases.h"
+#include "support/at_once.h"
 #include "support/random.h"
 #include "support/rounds.h"
 
@@ -67,23 +66,13 @@ TEST(OmplThreads, AnswerAsOne) {
   const unsigned int valid = proven.validator->getValidMotionCount();
   const unsigned int invalid = proven.validator->getInvalidMotionCount();
   std::array<std::vector<MotionAnswer>, kThreads> answers;
-  std::atomic<std::size_t> ready = 0;
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t thread = 0; thread < kThreads; ++thread) {
-      threads.emplace_back([&, thread] {
-        answers[thread].resize(count);
-        ++ready;
-        while (ready < kThreads) {
-          std::this_thread::yield();
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-          const std::size_t motion = thread == 0 ? k : count - 1 - k;
-          answers[thread][motion] = ask(proven, places[motion], places[motion + 1]);
-        }
-      });
+  at_once(kThreads, [&](std::size_t thread) {
+    answers[thread].resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t motion = thread == 0 ? k : count - 1 - k;
+      answers[thread][motion] = ask(proven, places[motion], places[motion + 1]);
     }
-  }
+  });
   for (const std::vector<MotionAnswer>& several : answers) {
     EXPECT_EQ(several, alone);
   }

@@ -80,5 +80,8 @@ def test_what_was_read_is_warned_of(scene, spinner, tmp_path):
     asked = fc.read_request(request, spinner)
     assert asked.start == {"turn": 0} and "finger" in asked.warnings[0]
     assert asked.velocity_scaling == asked.acceleration_scaling == 1
+    assert asked.planning_time is None
+    request.write_text(request.read_text() + "allowed_planning_time: 2.5\n")
+    assert fc.read_request(request, spinner).planning_time == 2.5
     with pytest.warns(UserWarning, match="fixed joint, finger"):
         scene.straight_motion({"turn": 0, "finger": 1}, {"turn": 1})

@@ -187,6 +187,8 @@ class PlanningRequest(NamedTuple):
     """[-]  Factor of the velocity limits; in (0, 1]."""
     acceleration_scaling: float = 1.0
     """[-]  Factor of the acceleration limits; in (0, 1]."""
+    planning_time: float | None = None
+    """[s]  Most time of a planner, > 0; None where it is not set."""
 
 
 class RunContacts(NamedTuple):

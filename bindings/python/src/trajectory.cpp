@@ -166,7 +166,8 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
   return py::module_::import("firstcontact._tuples")
       .attr("PlanningRequest")(dict(request.start), dict(request.goals.front().positions),
                                request.base, py::tuple(py::cast(request.warnings)),
-                               request.velocity_scaling, request.acceleration_scaling);
+                               request.velocity_scaling, request.acceleration_scaling,
+                               request.planning_time);
 }
 
 void bind_class(py::module_& m) {

@@ -65,6 +65,8 @@ std::vector<DeviceMapping> complete_mappings(const HapticScene& scene,
   return all;
 }
 
+constexpr std::int64_t kLongestStall = 10'000'000'000;  // [ns]
+
 class HapticSession::Implementation {
  public:
   Implementation(HapticScene scene, const HapticSessionOptions& options)
@@ -109,10 +111,11 @@ class HapticSession::Implementation {
   }
 
   void stall_contacts(std::int64_t stall_ns) {
-    if (!(stall_ns >= 0)) {
-      throw std::invalid_argument("HapticSession::stall_contacts: the time must be >= 0 ns");
+    if (!(stall_ns >= 0 && stall_ns <= kLongestStall)) {
+      throw std::invalid_argument(
+          "HapticSession::stall_contacts: the time must be >= 0 and at most 1e10 ns");
     }
-    // Without a cycle that runs, the next one begins at once, and ends later.
+    // Without a cycle that runs, the next one begins on time, and ends later.
     (is_running_ ? ends_ns_ : stall_ns_) += stall_ns;
     begins_ns_ += is_running_ ? stall_ns : 0;
   }

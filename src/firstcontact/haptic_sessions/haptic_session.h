@@ -57,8 +57,8 @@ class FIRSTCONTACT_API HapticSession {
   /// Delays the contacts of the cycle that runs, or of the next one, and all cycles after it: the
   /// contact loop stalls, once.
   ///
-  /// @param stall_ns  [ns]  >= 0
-  /// @throws std::invalid_argument if it is below 0
+  /// @param stall_ns  [ns]  >= 0 and at most 10 s
+  /// @throws std::invalid_argument if it is not
   void stall_contacts(std::int64_t stall_ns);
 
   [[nodiscard]] std::int64_t time_ns() const;          ///< [ns]  Time of the next tick.

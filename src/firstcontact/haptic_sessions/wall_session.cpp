@@ -32,8 +32,9 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr int kForcePriority = 80;
 constexpr int kContactPriority = 60;
-/// [-]  Rest after a cycle, of the processor time that it took. Linux lets a real-time thread run
-/// for 95 % of a second (sched_rt_runtime_us), and then stops it for the rest: for 50 ms.
+/// [-]  Rest after a cycle, of the processor time that it took. Linux lets the real-time threads of
+/// a processor run for 95 % of a second (sched_rt_runtime_us), and then stops them for the rest:
+/// for 50 ms. The force loop has a processor of its own where the system grants one.
 constexpr double kRestOfCycle = 1.0 / 16.0;
 constexpr std::size_t kRing = 1U << 14;  // [ticks]  4 s at 4 kHz.
 

@@ -61,7 +61,7 @@ struct HapticCycle {
   std::size_t rounds = 0;  ///< Number of projections.
   /// Whether a further round would gain less than ContactLoopOptions::least_gain.
   bool is_converged = false;
-  bool is_late = false;  ///< Whether the deadline ended the cycle.
+  bool is_late = false;  ///< Whether the deadline ended the cycle or one of its proofs.
   /// Whether the tools stayed where they were because no part of their motion could be proven.
   bool is_unproven = false;
   double residual = 0.0;     ///< [m]  Greatest residual of the projections.
