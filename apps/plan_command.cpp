@@ -130,7 +130,7 @@ class Plan {
     if (!arguments_.scene.empty()) {
       require_places(made, question);  // Requests and states have no keys of a plan.
     }
-    require_goals_apart(made);
+    require_goals_apart(made, question);
     return made;
   }
 

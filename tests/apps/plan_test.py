@@ -455,7 +455,9 @@ class Plan(tool_test.ToolTest):
         robots = [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1, "z": 0}}]
         for plan, key in (({"goal": {"x": 2.5}}, "scene.json: plan.goal: joint \"x\" is at 2.5"),
                           ({"goals": [{"x": 1}, {"x": 2.5}]}, "scene.json: plan.goals[1]: joint \"x\" is at 2.5"),
-                          ({"start": {"x": -3}, "goal": {"x": 1}}, "scene.json: plan.start: joint \"x\" is at -3")):
+                          ({"goals": [{"x": 2.5}]}, "scene.json: plan.goals[0]: joint \"x\" is at 2.5"),
+                          ({"start": {"x": -3}, "goal": {"x": 1}},
+                           "scene.json: plan.start, or what it does not name: joint \"x\" is at -3")):
             self.file("scene.json", scene(plan, [WALL], robots=robots))
             self.assert_refused_with(self.plan("scene.json"), key, "outside of its limits -2 to 2")
 

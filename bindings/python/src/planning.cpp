@@ -264,7 +264,7 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
     Scene asked = scene.scene();
     asked.options.tolerance = tolerance.value_or(asked.options.tolerance);
     made = make_scene_plan(std::move(asked), question, cache, query.token());
-    require_goals_apart(*made);
+    require_goals_apart(*made, question);
     options = made->options;
     options.shortcuts = shortcuts;
     options.approximate = approximate;

@@ -72,8 +72,11 @@ double start_of(const SceneRobot& robot, const JointCoordinate& coordinate) {
   return detail::resting_position(robot, coordinate_name(robot.model, coordinate));
 }
 
-std::string key_of_goal(const ScenePlan& scene, std::size_t k) {
-  return scene.goals.size() == 1 ? "plan.goal" : "plan.goals[" + std::to_string(k) + "]";
+/// Among poses of links the numbers are not those of the file.
+std::string key_of_goal(const PlanQuestion& question, std::size_t k) {
+  const bool has_number = question.lists_goals && question.link_goals.empty();
+  return std::string(question.lists_goals ? "plan.goals" : "plan.goal") +
+         (has_number ? "[" + std::to_string(k) + "]" : "");
 }
 
 void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
@@ -300,10 +303,10 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
   return made;
 }
 
-void require_goals_apart(const ScenePlan& scene) {
+void require_goals_apart(const ScenePlan& scene, const PlanQuestion& question) {
   const auto found = std::ranges::find(scene.goals, scene.start);
   if (!scene.plan.times && found != scene.goals.end()) {
-    refuse_plan(key_of_goal(scene, static_cast<std::size_t>(found - scene.goals.begin())) +
+    refuse_plan(key_of_goal(question, static_cast<std::size_t>(found - scene.goals.begin())) +
                 ": expected a goal apart from the start, got the start itself");
   }
 }
@@ -315,10 +318,9 @@ void require_places(const ScenePlan& scene, const PlanQuestion& question) {
     }
   };
   const bool has_start = !question.start.empty() || question.start_pose;
-  require(has_start ? "plan.start" : "the start", scene.start);
+  require(has_start ? "plan.start, or what it does not name" : "the start", scene.start);
   for (std::size_t k = 0; k < scene.goals.size(); ++k) {
-    // Among poses of links the numbers are not those of the file.
-    require(question.link_goals.empty() ? key_of_goal(scene, k) : "plan.goals", scene.goals[k]);
+    require(key_of_goal(question, k), scene.goals[k]);
   }
 }
 

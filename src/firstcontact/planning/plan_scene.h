@@ -51,11 +51,9 @@ struct ScenePlan {
 /// may have to leave its place and come back.
 ///
 /// @throws std::invalid_argument  names the goal
-FIRSTCONTACT_API void require_goals_apart(const ScenePlan& scene);
+FIRSTCONTACT_API void require_goals_apart(const ScenePlan& scene, const PlanQuestion& question);
 
-/// Refuses a start or a goal that is none, as beyond a limit, by the key of the scene that has it.
-///
-/// plan_path() refuses it, too, but knows no keys.
+/// Refuses a start or a goal beyond a limit, by its key in the scene.
 ///
 /// @throws std::invalid_argument  names the key and the coordinate
 FIRSTCONTACT_API void require_places(const ScenePlan& scene, const PlanQuestion& question);

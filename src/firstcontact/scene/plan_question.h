@@ -82,6 +82,7 @@ struct PlanQuestion {
   std::map<std::string, std::array<double, 2>> bounds = {};  ///< [rad or m]  Bounds by coordinate.
   std::optional<Pose> start_pose = {};  ///< Start of a body alone; else its pose in the scene.
   std::vector<Pose> goal_poses = {};    ///< Goals of a body alone.
+  bool lists_goals = false;             ///< Whether the file has `goals`, a list, of one or more.
   /// [m]  Corners of the box in which the body's origin stays; by default the box is around the
   /// whole scene.
   std::optional<std::array<Eigen::Vector3d, 2>> box = {};

@@ -270,6 +270,7 @@ class PlanReader {
     if (goal != nullptr) {
       all.push_back(goal);
     } else {
+      plan.lists_goals = true;
       for (const JsonValue& one : read_.array(*goals, "an array of goals")) {
         all.push_back(&one);
       }
