@@ -1,15 +1,19 @@
 // Times plans of the Panda in MotionBenchMaker's 400 problems and the tests of their edges, or
 // plans in one scene.
 //
-//   planning_benchmark [--seeds N] [--every N] [--only plans|edges] [--time SECONDS] [--range RAD]
-//                      [--shortcuts N] [OUTPUT.json]
+//   planning_benchmark [--seeds N] [--every N] [--only plans|edges|threads] [--time SECONDS]
+//                      [--range RAD] [--shortcuts N] [OUTPUT.json]
 //   planning_benchmark --scene SCENE.json [--seeds N] [--time SECONDS] [--range RAD]
 //                      [--shortcuts N] [OUTPUT.json]
 //
-// Times are processor times of one thread. The problems need FIRSTCONTACT_DATA_DIR.
+// Times are processor times of one thread; with `--only threads` they are wall clock. The problems
+// need FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +21,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -42,6 +47,7 @@ namespace fs = std::filesystem;
 constexpr double kEdgeLengths[] = {0.5, 2.0};  // [rad]
 constexpr int kEdgesOfProblem = 50;
 constexpr double kFractionTolerance = 1e-3;
+constexpr std::size_t kEdgesOfThreads = 4000;  // In each problem, for `--only threads`.
 
 struct Settings {
   std::uint64_t seeds = 5;
@@ -246,15 +252,77 @@ json edges(const Settings& settings) {
   return out;
 }
 
+/// [s]  Wall clock of checks of the same edges: of all by one thread, then of half of them by each
+/// of two threads, which share a checker or have one each.
+std::array<double, 3> times_of_threads(const EdgeChecker& checker, const EdgeChecker& other,
+                                       const std::vector<Configuration>& from,
+                                       const std::vector<Configuration>& to) {
+  const auto check = [&](const EdgeChecker& with, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+      (void)with.check(from[k], to[k]);
+    }
+  };
+  const auto wall = [](const auto& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const std::size_t half = from.size() / 2;  // Both halves have as many edges of each end.
+  const auto by_two = [&](const EdgeChecker& second) {
+    std::thread thread([&] { check(second, half, from.size()); });
+    check(checker, 0, half);
+    thread.join();
+  };
+  return {wall([&] { check(checker, 0, from.size()); }), wall([&] { by_two(checker); }),
+          wall([&] { by_two(other); })};
+}
+
+/// Compares the edges a second of two threads with those of one, problem by problem.
+json threads(const Settings& settings) {
+  std::vector<double> shared;
+  std::vector<double> own;
+  std::vector<double> rates;  // [1/s]
+  for (const std::string family : kPandaFamilies) {
+    for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
+      const EdgeCheckOptions options{.fraction_tolerance = kFractionTolerance};
+      const EdgeChecker checker(scene.plan, options);
+      const EdgeChecker other(scene.plan, options);
+      const ConfigurationSpace& space = scene.plan.space;
+      RandomNumbers random(static_cast<std::uint64_t>(problem));
+      std::vector<Configuration> from;
+      std::vector<Configuration> to;
+      for (std::size_t k = 0; k < kEdgesOfThreads; ++k) {
+        from.push_back(k % 2 == 0 ? scene.start : scene.goals.front());
+        const Configuration far = space.sample(random);
+        const double share = std::min(1.0, kEdgeLengths[0] / space.distance(from.back(), far));
+        to.push_back(space.interpolate(from.back(), far, share));
+      }
+      (void)times_of_threads(checker, other, from, to);  // The memory of both threads.
+      const std::array<double, 3> times = times_of_threads(checker, other, from, to);
+      rates.push_back(static_cast<double>(from.size()) / times[0]);
+      shared.push_back(times[0] / times[1]);
+      own.push_back(times[0] / times[2]);
+    });
+  }
+  return {{"edges_per_second_of_one", summary_of(rates)},
+          {"two_threads_by_one", summary_of(shared)},
+          {"two_threads_with_a_checker_each_by_one", summary_of(own)}};
+}
+
 int run(const Settings& settings) {
   json out = {{"seeds", settings.seeds}, {"every", settings.every}, {"time_s", settings.time}};
   if (!settings.scene.empty()) {
     out["plans"] = plans_in_scene(settings);
-  } else if (settings.only != "plans") {
-    out["edges"] = edges(settings);
-  }
-  if (settings.scene.empty() && settings.only != "edges") {
-    out["plans"] = plans(settings);
+  } else {
+    if (settings.only.empty() || settings.only == "edges") {
+      out["edges"] = edges(settings);
+    }
+    if (settings.only.empty() || settings.only == "plans") {
+      out["plans"] = plans(settings);
+    }
+    if (settings.only == "threads") {
+      out["threads"] = threads(settings);
+    }
   }
   if (settings.output.empty()) {
     std::cout << out.dump(2) << '\n';

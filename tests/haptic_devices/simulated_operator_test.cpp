@@ -205,6 +205,29 @@ TEST(SimulatedOperator, DoesNotDependOnTheSubstep) {
   EXPECT_LT(coarse.rotation.angularDistance(fine.rotation), 1e-6);
 }
 
+// A loop that was late reads after a pause. The sub-steps are longer then, so that the hand does not
+// make the loop later still.
+TEST(SimulatedOperator, MovesAlikeInPauses) {
+  const auto end_of = [](double substep) {
+    SimulatedOperatorOptions options;
+    options.hand.stiffness = 1500.0;
+    options.hand.mass = 0.05;
+    options.mechanism.friction = 0.2;
+    options.substep = substep;
+    options.path = random_via_points({.seed = 8, .count = 4, .radius = 0.1});
+    SimulatedOperator hand(options);
+    for (std::int64_t pause = 0; pause < 40; ++pause) {
+      (void)hand.read(80 * pause * kTick);
+      hand.command(along_x(pause % 4 < 2 ? 2.0 : -2.0), 80 * pause * kTick);
+    }
+    return hand.truth().X_DH;
+  };
+  const Pose usual = end_of(SimulatedOperatorOptions{}.substep);
+  const Pose fine = end_of(0.625e-6);
+  EXPECT_LT((usual.position - fine.position).norm(), 1e-6);
+  EXPECT_LT(usual.rotation.angularDistance(fine.rotation), 1e-5);
+}
+
 TEST(SimulatedOperator, FollowsItsPathWhereNothingIsInTheWay) {
   SimulatedOperatorOptions options = plain();
   options.hand.stiffness = 1500.0;

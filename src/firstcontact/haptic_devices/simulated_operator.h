@@ -77,7 +77,7 @@ struct SimulatedOperatorOptions {
   std::vector<ViaPoint> path = {ViaPoint{}};  ///< Via points of the hand; see OperatorPath.
   std::vector<HandRelease> releases;          ///< In order, apart from each other.
   std::uint64_t seed = 1;                     ///< Seed of the tremor and the jitter.
-  double substep = 2.5e-6;                    ///< [s]  Longest sub-step of the dynamics; > 0.
+  double substep = 2.5e-5;                    ///< [s]  Longest sub-step of the dynamics; > 0.
 };
 
 /// Energies since the begin [J].
@@ -106,6 +106,9 @@ struct OperatorTruth {
 /// The commanded force is held between commands. `read` advances the dynamics to its time in at
 /// least 100 sub-steps, and in at most 4 million. Button 0 is pressed while the hand holds on. The
 /// hand knows nothing of a scene: its path may lead through walls.
+///
+/// The usual sub-step is short beside the periods of hands. It is no shorter, as a read after a
+/// pause would take as long as the pause on a slow processor, and make its loop late again.
 ///
 /// Time 0 of the path is the first call of `read`. The same seed and the same calls give the same
 /// numbers on one machine. The tremor has three sines along and about each axis.
