@@ -39,9 +39,13 @@ Exit status: 0 done; 2 bad input; 3 stopped early, or moving bodies had to wait 
 }  // namespace
 
 std::vector<OutputFile> outputs_of(const HapticArguments& arguments) {
-  return {{"-o", arguments.run},          {"--ticks", arguments.ticks},
-          {"--cycles", arguments.cycles}, {"--timing", arguments.timing},
-          {"--plot", arguments.plot},     {"--html", arguments.page}};
+  std::vector<OutputFile> all{{"-o", arguments.run},          {"--ticks", arguments.ticks},
+                              {"--cycles", arguments.cycles}, {"--timing", arguments.timing},
+                              {"--plot", arguments.plot},     {"--html", arguments.page}};
+  for (const std::string& file : arguments.recordings) {
+    all.push_back({"--record", file});
+  }
+  return all;
 }
 
 namespace {
@@ -80,6 +84,11 @@ std::optional<BrowserDeviceOptions> live_page(const HapticArguments& arguments) 
 }  // namespace
 
 NamedDevices read_devices(const HapticArguments& arguments) {
+  if (!arguments.recordings.empty() && arguments.recordings.size() != arguments.devices.size()) {
+    throw std::invalid_argument(
+        fmt::format("--record: expected a file for each --device, {}; got {}",
+                    arguments.devices.size(), arguments.recordings.size()));
+  }
   NamedDevices named{.choices = {},
                      .live = live_page(arguments),
                      .duration = kDuration,
@@ -165,6 +174,8 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
   add_file(command, "--ticks", arguments.ticks,
            "Writes each tick: device, target, force, faults (.csv)");
   add_file(command, "--cycles", arguments.cycles, "Writes each cycle of the contact loop (.csv)");
+  add_files(command, "--record", arguments.recordings,
+            "Records the hand, so that --device plays it again (.csv); one per device");
   add_file(command, "--plot", arguments.plot, "Draws forces over time (.svg)");
   add_file(command, "--html", arguments.page, "Makes a page that plays the run");
   add_number(command, "--duration", arguments.duration, Range::positive,

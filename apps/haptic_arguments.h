@@ -34,11 +34,12 @@ struct HapticArguments {
   std::string timing;
   std::string plot;
   std::string page;
-  std::optional<double> duration;    // [s]
-  std::optional<double> latency;     // [s]
-  std::optional<double> radius;      // [m]
-  std::optional<double> speed;       // [m/s]
-  std::optional<double> empty_loop;  // [s]
+  std::vector<std::string> recordings;  // One for each device, or none.
+  std::optional<double> duration;       // [s]
+  std::optional<double> latency;        // [s]
+  std::optional<double> radius;         // [m]
+  std::optional<double> speed;          // [m/s]
+  std::optional<double> empty_loop;     // [s]
   std::size_t seed = 1;
   HandArguments hand;
   std::optional<std::string> live;  // Port of the live page; "" for a free one.

@@ -27,6 +27,7 @@
 #include <firstcontact/text/parse_error.h>
 
 #include "begun_file.h"
+#include "device_recordings.h"
 #include "haptic_arguments.h"
 #include "haptic_device_choice.h"
 #include "haptic_live.h"
@@ -191,6 +192,7 @@ class HapticsRun {
     }
     ticks_.emplace(arguments_.ticks, haptic_tick_header(columns()));
     cycles_.emplace(arguments_.cycles, haptic_cycle_header(columns()));
+    recordings_.begin(arguments_.recordings, pointers_);
     drawing_.emplace(arguments_.plot);
     timing_.emplace(arguments_.timing);
     page_file_.emplace(arguments_.page);
@@ -223,6 +225,7 @@ class HapticsRun {
     if (live_ && live_->is_due(tick)) {
       server_->show(live_->picture(tick, record_->devices(tick)));
     }
+    recordings_.add(tick);
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size(), columns()));
     }
@@ -314,6 +317,7 @@ class HapticsRun {
   void end_files() {
     ticks_->commit();
     cycles_->commit();
+    recordings_.commit();
     if (drawing_->is_open()) {
       drawing_->write(plot_.draw(arguments_.scene, undriven()));
       drawing_->commit();
@@ -368,6 +372,9 @@ class HapticsRun {
     if (!arguments_.plot.empty()) {
       say(answer_line("plot", arguments_.plot));
     }
+    for (const std::string& file : arguments_.recordings) {
+      say(answer_line("hand", file + "; --device plays it again"));
+    }
     flush_stdout();
   }
 
@@ -388,6 +395,7 @@ class HapticsRun {
   std::optional<RunFile> run_file_;
   std::optional<BegunFile> ticks_;
   std::optional<BegunFile> cycles_;
+  DeviceRecordings recordings_;
   // These are written at the end; errors of writing are reported before the session.
   std::optional<BegunFile> drawing_;
   std::optional<BegunFile> timing_;

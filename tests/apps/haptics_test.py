@@ -186,6 +186,29 @@ class Haptics(tool_test.ToolTest):
         self.assertAlmostEqual(forces[-1][2], 2.5, delta=0.05)
         self.assertAlmostEqual(float(ticks[-1]["force_z"]), 2.5, delta=0.05)
 
+    def test_records_a_hand_that_plays_again(self):
+        """The forces of the second session are those of the first one, tick by tick."""
+        self.file("scene.json", scene(bodies=(PLATE, PEG | {"pose": {"position": [0, 0, 0.021]}})))
+        some = ("--duration", "0.5", "--force", "--ticks")
+        first = self.haptics("--device", "simulated", "--speed", "5", "--seed", "2", *some, "first.csv",
+                             "--record", "hand.csv")
+        self.assertEqual(first.returncode, 0, first)
+        self.assertIn("hand.csv; --device plays it again", first.stdout)
+        again = self.haptics("--device", "hand.csv", *some, "again.csv")
+        self.assertEqual(again.returncode, 0, again)
+        rows = [list(csv.DictReader((self.folder / name).open())) for name in ("first.csv", "again.csv")]
+        self.assertEqual(len(rows[0]), 2000)
+        self.assertTrue(any(float(row["force_z"]) for row in rows[0]))
+        for key in ("time_ns", "device_px", "device_qw", "target_pz", "force_x", "force_z", "torque_y", "command_fz"):
+            self.assertEqual([row[key] for row in rows[0]], [row[key] for row in rows[1]], key)
+        two = ("--record", "a.csv", "--record", "b.csv")
+        self.assert_refused_with(self.haptics("--device", "simulated", *two, out="other.jsonl"),
+                                 "--record", "for each --device, 1; got 2")
+        self.assert_refused_with(self.haptics("--device", "hand.csv", "--record", "hand.csv", out="other.jsonl"),
+                                 "hand.csv")
+        for name in ("a.csv", "b.csv", "other.jsonl"):
+            self.assertFalse((self.folder / name).exists(), name)
+
     def test_plays_the_last_sample_of_a_recording(self):
         self.file("scene.json", scene())
         for samples, count in (([(0, 0), (10_000_000, 0.01)], 440), ([(5, 0.01)], 400)):

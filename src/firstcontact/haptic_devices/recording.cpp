@@ -461,6 +461,12 @@ std::string write_recording(const Recording& recording) {
 }
 
 DeviceState calibrated(const DeviceState& sample, const DeviceCalibration& calibration) noexcept {
+  constexpr double kUnit = 4.0 * std::numeric_limits<double>::epsilon();
+  if (calibration.scale == 1.0 && calibration.X_DR.position.isZero(0.0) &&
+      calibration.X_DR.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs() &&
+      std::abs(sample.X_DH.rotation.squaredNorm() - 1.0) <= kUnit) {
+    return sample;
+  }
   const Eigen::Quaterniond R_DR = calibration.X_DR.rotation.normalized();
   DeviceState result = sample;
   result.X_DH.position =

@@ -63,7 +63,7 @@ struct Recording {
 /// Writes a whole recording as text.
 [[nodiscard]] FIRSTCONTACT_API std::string write_recording(const Recording& recording);
 
-/// Maps a sample to the device frame D.
+/// Maps a sample to the device frame D. One that is there already stays the same, bit for bit.
 [[nodiscard]] FIRSTCONTACT_API DeviceState
 calibrated(const DeviceState& sample, const DeviceCalibration& calibration) noexcept;
 
