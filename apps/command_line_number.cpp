@@ -50,17 +50,35 @@ CLI::Option* add_number_between(CLI::App& command, const std::string& name,
   return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
 }
 
-CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
-                       const std::string& description) {
+namespace {
+
+/// Adds an option that gives a whole number > 0 to `count`.
+template <class Count>
+CLI::Option* add_count_to(CLI::App& command, const std::string& name, Count& count,
+                          const std::string& description) {
   const auto take = [&count, name](const std::string& text) {
+    std::size_t number = 0;
     const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, count);
-    if (error != std::errc() || rest != end || count == 0) {
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end || number == 0) {
       throw CLI::ValidationError(name,
                                  fmt::format("expected a whole number > 0, got \"{}\"", text));
     }
+    count = number;
   };
   return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
+}
+
+}  // namespace
+
+CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
+                       const std::string& description) {
+  return add_count_to(command, name, count, description);
+}
+
+CLI::Option* add_count(CLI::App& command, const std::string& name,
+                       std::optional<std::size_t>& count, const std::string& description) {
+  return add_count_to(command, name, count, description);
 }
 
 CLI::Option* add_threads(CLI::App& command, int& threads, const std::string& same) {

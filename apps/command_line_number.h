@@ -26,6 +26,10 @@ CLI::Option* add_number_between(CLI::App& command, const std::string& name,
 CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
                        const std::string& description);
 
+/// Adds an option that takes a whole number > 0, or is left out.
+CLI::Option* add_count(CLI::App& command, const std::string& name,
+                       std::optional<std::size_t>& count, const std::string& description);
+
 /// Adds --threads, which takes 0 to 1024.
 ///
 /// @param same  the thing that does not depend on their number: "The answer"

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,34 +14,49 @@
 #include <firstcontact/haptic_devices/device.h>
 #include <firstcontact/haptics/force_loop.h>
 
-#include "atomic_file.h"
-
 namespace firstcontact::app {
 
-/// Writes what the force loop read of each device, so that `--device` can play it again.
+/// Writes what the force loop read of each device, so that `--device` plays it again.
+///
+/// A row has the time of the tick that read it, so that a session in virtual time is the same
+/// again, and several devices stay in step. Each new sample and status has a row, and so have the
+/// first and the last tick. A file holds whole rows at every moment.
 class DeviceRecordings {
  public:
   /// Begins the files.
   ///
-  /// @param files  a name for each device, or none at all
-  void begin(std::span<const std::string> files, std::span<Device* const> devices);
+  /// @param files     a name for each device, or none at all
+  /// @param replaces  whether files that hold something are lost
+  /// @throws std::runtime_error, one line that names the file, where it cannot be written, or holds
+  ///         something and is not to be replaced
+  void begin(std::span<const std::string> files, std::span<Device* const> devices, bool replaces);
 
-  /// Adds the samples of a tick that are new.
+  /// Adds what is new in a tick.
   void add(const ForceTick& tick);
 
-  void commit();
+  /// Adds the last tick.
+  ///
+  /// @returns whether there was a tick. Without one the files are removed: they would not play.
+  bool end();
 
  private:
-  struct One {
-    One(const std::string& name, const DeviceCapabilities& capabilities)
-        : file(name), kind(capabilities.kind), grips(capabilities.grips) {}
-
-    AtomicFile file;
-    DeviceKind kind;
-    int grips;
-    std::optional<DeviceState> last;  // The sample that was written last.
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::vector<std::unique_ptr<One>> all_;
+  struct One {
+    std::string path;
+    std::unique_ptr<std::FILE, Close> file;
+    DeviceKind kind = DeviceKind::pose;
+    int grips = 0;
+    std::optional<DeviceState> last = {};  // As it was read last.
+    std::uint64_t sequence = 0;            // As it was written last.
+    std::int64_t time_ns = 0;              // As it was written last.
+
+    void write(const std::string& text) const;
+    void add(const DeviceState& state, std::int64_t now_ns);
+  };
+  std::vector<One> all_;
+  std::int64_t now_ns_ = 0;  // Time of the last tick.
 };
 
 }  // namespace firstcontact::app

@@ -51,8 +51,12 @@ std::vector<OutputFile> outputs_of(const HapticArguments& arguments) {
 namespace {
 
 /// The first option of the simulated hand that is given; null for none.
-const char* hand_option(const HandArguments& hand) {
-  return hand.stiffness      ? "--hand-stiffness"
+const char* hand_option(const HapticArguments& arguments) {
+  const HandArguments& hand = arguments.hand;
+  return arguments.radius    ? "--radius"
+         : arguments.speed   ? "--speed"
+         : arguments.seed    ? "--seed"
+         : hand.stiffness    ? "--hand-stiffness"
          : hand.mass         ? "--hand-mass"
          : hand.tremor       ? "--hand-tremor"
          : hand.encoder_step ? "--encoder-step"
@@ -124,10 +128,17 @@ NamedDevices read_devices(const HapticArguments& arguments) {
                            : "--live"));
     }
   }
+  if (!named.on_the_wall && (arguments.empty_loop || !arguments.timing.empty())) {
+    throw std::invalid_argument(fmt::format("{} is for the wall clock; add --wall, or leave it out",
+                                            arguments.empty_loop ? "--empty-loop" : "--timing"));
+  }
+  if (arguments.force && arguments.run.empty() && arguments.recordings.empty()) {
+    throw std::invalid_argument("--force replaces the file of -o or --record; name one of them");
+  }
   const bool is_simulated = std::ranges::any_of(named.choices, [](const DeviceChoice& choice) {
     return std::holds_alternative<SimulatedChoice>(choice);
   });
-  if (const char* option = hand_option(arguments.hand); option != nullptr && !is_simulated) {
+  if (const char* option = hand_option(arguments); option != nullptr && !is_simulated) {
     throw std::invalid_argument(
         fmt::format("{} is for --device simulated; leave it out, or name this device", option));
   }
@@ -139,7 +150,7 @@ SimulatedOperatorOptions simulated_hand(const HapticArguments& arguments, const 
                                         const DeviceMapping& mapping, double duration,
                                         std::size_t number) {
   RandomPathOptions path;
-  path.seed = arguments.seed + 1000 * number;
+  path.seed = arguments.seed.value_or(1) + 1000 * number;
   const double reach = tool.shape.bounds().reach + tool.shape.radius();
   path.radius = radius_of_hand(arguments.radius.value_or(2.0 * reach), mapping.scale);
   path.fastest = arguments.speed.value_or(1.0);
@@ -169,8 +180,8 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
       ->expected(1)
       ->type_name("DEVICE")
       ->take_all();
-  CLI::Option* run = add_file(command, "-o,--output", arguments.run,
-                              "Records the motion of the tools: JSON Lines, one line per cycle");
+  add_file(command, "-o,--output", arguments.run,
+           "Records the motion of the tools: JSON Lines, one line per cycle");
   add_file(command, "--ticks", arguments.ticks,
            "Writes each tick: device, target, force, faults (.csv)");
   add_file(command, "--cycles", arguments.cycles, "Writes each cycle of the contact loop (.csv)");
@@ -186,8 +197,9 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
   add_number(command, "--radius", arguments.radius, Range::positive,
              "[m] Reach of the simulated hand from the start. Default: twice the distance from the "
              "middle of the tool to its farthest point");
-  add_number(command, "--speed", arguments.speed, Range::positive,
-             "[m/s] Greatest mean speed of a stroke of the simulated hand; 1 by default");
+  add_number_between(command, "--speed", arguments.speed, 1e-6, 1000.0,
+                     "[m/s] Greatest mean speed of a stroke of the simulated hand, 1e-6 to 1000; 1 "
+                     "by default");
   add_number_between(command, "--hand-stiffness", arguments.hand.stiffness, 0.0, 1500.0,
                      "[N/m] Stiffness of the simulated hand, 0 to 1500; 400 by default");
   add_number_between(command, "--hand-mass", arguments.hand.mass, 0.05, 1.0,
@@ -199,9 +211,8 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
                      "[m] Step of the encoders of the simulated device, 0 to 0.01; 1e-5 by "
                      "default. Angles have steps in proportion, of 5e-5 rad");
   add_count(command, "--seed", arguments.seed, "Seed of the motion of the simulated hand");
-  CLI::Option* wall =
-      command.add_flag("--wall", arguments.wall,
-                       "Runs both loops as threads on the wall clock, not in virtual time");
+  command.add_flag("--wall", arguments.wall,
+                   "Runs both loops as threads on the wall clock, not in virtual time");
   command
       .add_option_function<std::string>(
           "--live", [&arguments](const std::string& port) { arguments.live = port; },
@@ -209,14 +220,13 @@ void add_haptic_options(CLI::App& command, HapticArguments& arguments) {
           "--wall")
       ->expected(0, 1)
       ->type_name("[PORT]");
-  add_file(command, "--timing", arguments.timing, "Writes histograms of all ticks (.csv)")
-      ->needs(wall);
+  add_file(command, "--timing", arguments.timing,
+           "Writes histograms of all ticks (.csv); on the wall clock");
   add_number(
       command, "--empty-loop", arguments.empty_loop, Range::not_negative,
       "[s] Time for which a loop that does nothing runs first, to compare its late ticks. 0.2 "
-      "by default; at most the duration")
-      ->needs(wall);
-  command.add_flag("--force", arguments.force, "Replaces the output file")->needs(run);
+      "by default; at most the duration; on the wall clock");
+  command.add_flag("--force", arguments.force, "Replaces the files of -o and --record");
   command.footer(kFooter);
 }
 

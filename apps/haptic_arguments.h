@@ -40,7 +40,7 @@ struct HapticArguments {
   std::optional<double> radius;         // [m]
   std::optional<double> speed;          // [m/s]
   std::optional<double> empty_loop;     // [s]
-  std::size_t seed = 1;
+  std::optional<std::size_t> seed;
   HandArguments hand;
   std::optional<std::string> live;  // Port of the live page; "" for a free one.
   bool wall = false;

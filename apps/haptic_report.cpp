@@ -138,9 +138,11 @@ std::string HapticReport::text(const std::string& scene, bool is_stopped,
         "unfinished",
         fmt::format("{} cycles ended before the tool was where it could be", unfinished_));
   }
-  text +=
-      answer_line("time lost",
-                  time_lost_ > 0.0 ? time_text(time_lost_) + ": bodies waited for a tool" : "none");
+  text += answer_line("time lost", time_lost_ > 0.0
+                                       ? time_text(time_lost_) +
+                                             ": bodies waited for a tool, or turn too fast for the "
+                                             "rounds of a cycle"
+                                       : "none");
   if (wall && wall->behind_ns > 0) {
     text +=
         answer_line("behind", time_text(1e-9 * static_cast<double>(wall->behind_ns)) +

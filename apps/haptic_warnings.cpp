@@ -1,8 +1,11 @@
 #include "haptic_warnings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include <Eigen/Core>
 
 #include <fmt/format.h>
 
@@ -12,6 +15,7 @@ namespace firstcontact::app {
 namespace {
 
 constexpr double kFastestHand = 20.0;  // [m/s]
+constexpr double kWorkspaces = 4.0;    // [-]  Farther off, a place is in another unit.
 
 /// Also for times that lie farther apart than a signed number can tell.
 std::uint64_t nanoseconds_between(std::int64_t from, std::int64_t to) {
@@ -27,6 +31,23 @@ struct Speeds {
     too_fast += speed > kFastestHand ? 1 : 0;
   }
 };
+
+/// A warning where a device goes farther from its first place than its workspace is wide.
+std::string workspace_warning(const std::string& word, const Recording& recording) {
+  const double radius = recording.capabilities.workspace_radius;
+  double farthest = 0.0;
+  for (const DeviceState& sample : recording.samples) {
+    const Eigen::Vector3d way = sample.X_DH.position - recording.samples.front().X_DH.position;
+    farthest = std::max(farthest, recording.calibration.scale * way.norm());
+  }
+  if (recording.capabilities.kind == DeviceKind::rate || !(farthest > kWorkspaces * radius)) {
+    return {};
+  }
+  return fmt::format(
+      "{}: goes {:.4g} m from its first place, but workspace_radius is {:.4g} m; for millimetres "
+      "write \"# calibration_scale: 0.001\"",
+      visible(word), farthest, radius);
+}
 
 }  // namespace
 
@@ -62,6 +83,9 @@ std::vector<std::string> device_warnings(const HapticTool& tool, double scale,
 }
 
 std::string recording_warning(const std::string& word, const Recording& recording) {
+  if (const std::string far = workspace_warning(word, recording); !far.empty()) {
+    return far;
+  }
   const double scale = recording.calibration.scale;
   Speeds speeds;
   for (std::size_t k = 0; k < recording.samples.size(); ++k) {

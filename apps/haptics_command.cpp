@@ -59,6 +59,12 @@ class HapticsRun {
           fmt::format("{}: expected a --device for each tool, {} of them; got {}", arguments.scene,
                       setup_.scene.tools.size(), arguments.devices.size()));
     }
+    const double tick = 1.0 / setup_.options.force_rate;
+    if (named_.duration < tick) {
+      throw std::invalid_argument(fmt::format(
+          "--duration: expected at least {:.4g} s, a tick of the force loop; got {:.4g}", tick,
+          named_.duration));
+    }
     open_devices();
     if (named_.live) {
       viewing_.emplace(*named_.live);
@@ -124,9 +130,12 @@ class HapticsRun {
   void open_devices() {
     setup_.options.mappings = complete_mappings(setup_.scene, setup_.options.mappings);
     for (std::size_t k = 0; k < named_.choices.size(); ++k) {
+      const bool is_simulated = std::holds_alternative<SimulatedChoice>(named_.choices[k]);
       devices_.push_back(open_device(
-          named_.choices[k], simulated_hand(arguments_, setup_.scene.tools[k],
-                                            setup_.options.mappings[k], named_.duration, k)));
+          named_.choices[k], is_simulated
+                                 ? simulated_hand(arguments_, setup_.scene.tools[k],
+                                                  setup_.options.mappings[k], named_.duration, k)
+                                 : SimulatedOperatorOptions{}));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
       setup_.options.mappings[k].device = devices_[k]->capabilities();
       require_buttons(k);
@@ -192,11 +201,12 @@ class HapticsRun {
     }
     ticks_.emplace(arguments_.ticks, haptic_tick_header(columns()));
     cycles_.emplace(arguments_.cycles, haptic_cycle_header(columns()));
-    recordings_.begin(arguments_.recordings, pointers_);
     drawing_.emplace(arguments_.plot);
     timing_.emplace(arguments_.timing);
     page_file_.emplace(arguments_.page);
     // Last: if another output cannot be written, no run is left behind.
+    require_writable(outputs_of(arguments_));
+    recordings_.begin(arguments_.recordings, pointers_, arguments_.force);
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(),
                                        arguments_.force ? HeldRun::replaced : HeldRun::kept));
@@ -317,7 +327,7 @@ class HapticsRun {
   void end_files() {
     ticks_->commit();
     cycles_->commit();
-    recordings_.commit();
+    is_recorded_ = recordings_.end();
     if (drawing_->is_open()) {
       drawing_->write(plot_.draw(arguments_.scene, undriven()));
       drawing_->commit();
@@ -373,7 +383,8 @@ class HapticsRun {
       say(answer_line("plot", arguments_.plot));
     }
     for (const std::string& file : arguments_.recordings) {
-      say(answer_line("hand", file + "; --device plays it again"));
+      say(answer_line("hand", is_recorded_ ? file + "; --device plays it again"
+                                           : "not recorded: the session had no tick"));
     }
     flush_stdout();
   }
@@ -396,6 +407,7 @@ class HapticsRun {
   std::optional<BegunFile> ticks_;
   std::optional<BegunFile> cycles_;
   DeviceRecordings recordings_;
+  bool is_recorded_ = false;
   // These are written at the end; errors of writing are reported before the session.
   std::optional<BegunFile> drawing_;
   std::optional<BegunFile> timing_;

@@ -186,6 +186,20 @@ class Haptics(tool_test.ToolTest):
         self.assertAlmostEqual(forces[-1][2], 2.5, delta=0.05)
         self.assertAlmostEqual(float(ticks[-1]["force_z"]), 2.5, delta=0.05)
 
+    def ticks_that_are_alike(self, *names):
+        """The ticks of the first table, in which a force is felt, and whose numbers are those of the second one."""
+        first, second = [self.table(name) for name in names]
+        self.assertTrue(any(float(tick["force_z"]) for tick in first))
+        self.assertEqual(len(first), len(second))
+        # A recording has the times of ticks in place of those of samples.
+        other = {key for one, two in zip(first, second) for key in one if one[key] != two[key]} - {"sample_ns"}
+        self.assertEqual(other, set())
+        return first
+
+    def table(self, name):
+        with open(self.folder / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
     def test_records_a_hand_that_plays_again(self):
         """The forces of the second session are those of the first one, tick by tick."""
         self.file("scene.json", scene(bodies=(PLATE, PEG | {"pose": {"position": [0, 0, 0.021]}})))
@@ -196,18 +210,36 @@ class Haptics(tool_test.ToolTest):
         self.assertIn("hand.csv; --device plays it again", first.stdout)
         again = self.haptics("--device", "hand.csv", *some, "again.csv")
         self.assertEqual(again.returncode, 0, again)
-        rows = [list(csv.DictReader((self.folder / name).open())) for name in ("first.csv", "again.csv")]
-        self.assertEqual(len(rows[0]), 2000)
-        self.assertTrue(any(float(row["force_z"]) for row in rows[0]))
-        for key in ("time_ns", "device_px", "device_qw", "target_pz", "force_x", "force_z", "torque_y", "command_fz"):
-            self.assertEqual([row[key] for row in rows[0]], [row[key] for row in rows[1]], key)
+        self.assertEqual(len(self.ticks_that_are_alike("first.csv", "again.csv")), 2000)
+        self.assert_refused_with(self.haptics("--device", "hand.csv", "--record", "hand.csv", out="other.jsonl"),
+                                 "hand.csv")
+        self.file("precious.csv", "here")
+        self.assert_refused_with(self.haptics("--device", "simulated", "--record", "precious.csv", out="other.jsonl"),
+                                 "precious.csv: holds something already", "--force")
         two = ("--record", "a.csv", "--record", "b.csv")
         self.assert_refused_with(self.haptics("--device", "simulated", *two, out="other.jsonl"),
                                  "--record", "for each --device, 1; got 2")
-        self.assert_refused_with(self.haptics("--device", "hand.csv", "--record", "hand.csv", out="other.jsonl"),
-                                 "hand.csv")
         for name in ("a.csv", "b.csv", "other.jsonl"):
             self.assertFalse((self.folder / name).exists(), name)
+
+    def test_records_what_a_hand_lacked(self):
+        """Waits, silences and losses of two devices are played at their ticks, and so is the end."""
+        pegs = [{**PEG, "name": name, "pose": {"position": [x, 0, 0.021]}} for name, x in (("left", -0.05), ("right", 0.05))]
+        self.file("scene.json", scene([{"body": "left"}, {"body": "right"}], [PLATE, *pegs]))
+        head = "# firstcontact recording: 1\n# kind: pose\n# sensed: 111111\ntime_ns,sequence,status,x,y,z,qw,qx,qy,qz\n"
+
+        def hand(words):
+            return head + "".join(f"{7000000 * k},{k // 2},{word},0,0,{-0.0005 * k},1,0,0,0\n"
+                                  for k, word in enumerate(words))
+        self.file("a.csv", hand(["waiting"] * 4 + ["live"] * 8 + ["lost"] * 3 + ["live"] * 4))
+        self.file("b.csv", hand(["live"] * 9 + ["silent"] * 3 + ["live"] * 2 + ["ended"] * 2))
+        some = ("--duration", "0.2", "--force", "--ticks")
+        first = self.haptics("--device", "a.csv", "--device", "b.csv", *some, "first.csv",
+                             "--record", "c.csv", "--record", "d.csv")
+        self.assertEqual(first.returncode, 0, first)
+        self.assertEqual(self.haptics("--device", "c.csv", "--device", "d.csv", *some, "again.csv").returncode, 0)
+        ticks = self.ticks_that_are_alike("first.csv", "again.csv")
+        self.assertEqual({tick["status"] for tick in ticks}, {"waiting", "live", "lost", "silent", "ended"})
 
     def test_plays_the_last_sample_of_a_recording(self):
         self.file("scene.json", scene())

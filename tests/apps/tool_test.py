@@ -555,7 +555,7 @@ $""")
             for command in (["verify"], *([["view", "--no-open"]] if has_viewer else [])):
                 self.assert_refused(self.run_tool(*command, "run.jsonl"),
                                     "run.jsonl: header.input_digest: a mesh or robot file of its scene is not what "
-                                    "it was when the run was made; restore the file, or simulate again")
+                                    "it was when the run was made; restore the file, or make the run again")
             self.file(name, text)
 
     def test_refuses_a_run_of_another_scene(self):

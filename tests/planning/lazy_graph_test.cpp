@@ -51,14 +51,23 @@ double cost_of(const detail::LazyGraph& graph, const std::vector<std::size_t>& p
   return cost;
 }
 
-TEST(LazyGraph, KeepsTheShortestPath) {
+/// Adds places, blocks edges of the shortest paths, and compares each path with a search from
+/// nothing.
+///
+/// @param copies  [-]  share of the places that are in the place of an earlier one, or very near
+void expect_shortest_paths(double copies) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomNumbers random(seed);
     detail::LazyGraph graph;
     std::vector<Eigen::Vector2d> places;
     std::size_t edges = 0;
     for (int round = 0; round < 150; ++round) {
-      places.emplace_back(random.uniform(), random.uniform());
+      if (!places.empty() && random.uniform() < copies) {
+        const double apart = random.below(2) == 0 ? 0.0 : 1e-18;
+        places.emplace_back(places[random.below(places.size())] + Eigen::Vector2d(apart, apart));
+      } else {
+        places.emplace_back(random.uniform(), random.uniform());
+      }
       const std::size_t added = places.size() - 1;
       double to_goal = std::numeric_limits<double>::infinity();
       // Goals come first, so that bounds of later nodes hold.
@@ -86,6 +95,15 @@ TEST(LazyGraph, KeepsTheShortestPath) {
         graph.block(path[random.below(path.size())]);
       }
     }
+  }
+}
+
+TEST(LazyGraph, KeepsTheShortestPath) { expect_shortest_paths(0.0); }
+
+// Equal goals, and a path that is taken twice, have edges of no length.
+TEST(LazyGraph, KeepsTheShortestPathOfEqualPlaces) {
+  for (const double copies : {0.1, 0.5, 0.9}) {
+    expect_shortest_paths(copies);
   }
 }
 

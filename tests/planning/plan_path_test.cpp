@@ -86,6 +86,17 @@ TEST(PlanPath, LazyPrmIsNoLongerThanRrtConnect) {
   EXPECT_LT(lazy, 1.0001 * connected);
 }
 
+// Equal goals are places without a way between them: their graph once had a path without an end.
+TEST(PlanPath, LazyPrmTakesAGoalThatIsNamedTwice) {
+  const PlanScene scene = with_gantry(boxed_in());
+  const Configuration inside = {0.0, 0.1, -0.1};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const PlanResult result = plan_path(scene, kBehind, {inside, inside, inside},
+                                        {.planner = Planner::lazy_prm_star, .seed = seed});
+    expect_proven(scene, result, kBehind, inside);
+  }
+}
+
 // Where more tries help, the default takes more of them.
 TEST(PlanPath, ShortcutsGoOnWhileTheyHelp) {
   const PlanScene scene = with_gantry(boxed_in());

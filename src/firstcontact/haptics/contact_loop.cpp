@@ -147,7 +147,7 @@ void ContactLoop::Implementation::require_start() {
     const std::string names = "\"" + name_of(tool) + "\" and \"" + name_of(other) + "\"";
     const std::string mend = tool_of(tool) == tool_of(other)
                                  ? "; links that overlap by design have to be ignored as a pair"
-                                 : "";
+                                 : "; move one of them apart";
     const double gap = distance(A, B, 0.0, workspace_).lower_bound;
     detail::require_haptic(!(gap > 0.0 && gap < 0.1 * distance_),
                            names +

@@ -11,7 +11,7 @@ LoadedScene load_scene_of(const RunHeader& header, ShapeCache& cache) {
   if (!header.input_digest.empty() && loaded.input_digest != header.input_digest) {
     throw std::invalid_argument(
         "header.input_digest: a mesh or robot file of its scene is not what it was when the run "
-        "was made; restore the file, or simulate again");
+        "was made; restore the file, or make the run again");
   }
   return loaded;
 }

@@ -1,6 +1,7 @@
 #include <firstcontact/planning/detail/lazy_graph.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace firstcontact::detail {
 
@@ -41,9 +42,16 @@ LazyGraph::Entry LazyGraph::entry(std::size_t node) const {
   return {cost + nodes_[node].to_goal, cost, node};
 }
 
+/// The cost of a node by one of its edges: more than that of the other end, also where the edge is
+/// too short to change the sum.
+double LazyGraph::cost_by(std::size_t edge, std::size_t node) const {
+  const double cost = nodes_[other_end(edge, node)].cost;
+  return std::max(cost + edges_[edge].length, std::nextafter(cost, kNever));
+}
+
 /// Takes an edge to a node if it makes its way shorter.
 void LazyGraph::offer(std::size_t node, std::size_t edge) {
-  const double cost = nodes_[other_end(edge, node)].cost + edges_[edge].length;
+  const double cost = cost_by(edge, node);
   if (node != 0 && !edges_[edge].is_blocked && cost < nodes_[node].ahead) {
     nodes_[node].ahead = cost;
     nodes_[node].by = edge;
@@ -59,7 +67,7 @@ void LazyGraph::look_ahead(std::size_t node) {
   nodes_[node].ahead = kNever;
   nodes_[node].by = kNone;
   for (const std::size_t edge : nodes_[node].edges) {
-    const double cost = nodes_[other_end(edge, node)].cost + edges_[edge].length;
+    const double cost = cost_by(edge, node);
     if (!edges_[edge].is_blocked && cost < nodes_[node].ahead) {
       nodes_[node].ahead = cost;
       nodes_[node].by = edge;

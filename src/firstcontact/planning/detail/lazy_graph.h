@@ -15,7 +15,8 @@ namespace firstcontact::detail {
 /// Nodes, edges with lengths, and the shortest path from node 0 to a goal.
 ///
 /// A search keeps what it knows of the costs. After a change it visits only nodes whose costs
-/// change.
+/// change. Each edge makes a way longer, if only by rounding up. So places may be equal: two nodes
+/// without a way from the start never pass for each other's way.
 ///
 /// Source: S. Koenig, M. Likhachev, D. Furcy, "Lifelong Planning A*", Artificial Intelligence 155
 /// (2004).
@@ -63,6 +64,7 @@ class LazyGraph {
   using Entry = std::tuple<double, double, std::size_t>;
 
   [[nodiscard]] Entry entry(std::size_t node) const;
+  [[nodiscard]] double cost_by(std::size_t edge, std::size_t node) const;
   void offer(std::size_t node, std::size_t edge);
   void look_ahead(std::size_t node);
   void queue(std::size_t node);
