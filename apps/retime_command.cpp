@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -133,6 +134,7 @@ class Report {
     rates(proof);
     clearance(proof);
     held(proof);
+    turns();
     warnings();
     return text_;
   }
@@ -237,6 +239,20 @@ class Report {
       const std::string since = hold.from > 0.0 ? " from " + time_text(hold.from) + " on" : "";
       line("held", fmt::format("{}: more than {} apart{}{}", names(hold.members),
                                length_text(hold.distance), since, until));
+    }
+  }
+
+  /// Writes the joints that end whole turns away from where the path has them.
+  void turns() {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const std::vector<double>& end = input_.path.waypoints.back();
+    for (std::size_t k = 0; k < end.size(); ++k) {
+      const auto count = std::llround(std::abs(input_.named_end.at(k) - end[k]) / kTurn);
+      if (count > 0) {
+        line("turns", fmt::format("{} ends at {:.6g} rad, {} {} from the {:.6g} rad of the path",
+                                  joint(k), end[k], count, count == 1 ? "turn" : "turns",
+                                  input_.named_end[k]));
+      }
     }
   }
 

@@ -69,6 +69,19 @@ class Retime(tool_test.ToolTest):
         self.assertLess(durations[1], durations[0])
         self.assertLessEqual(durations[2], durations[1])
 
+    def test_names_the_turns_of_continuous_joints(self):
+        """The shoulder goes the short way to 7 rad, which is 0.72 rad."""
+        robot = self.file("turning.urdf", URDF.replace('"shoulder" type="revolute"', '"shoulder" type="continuous"')
+                          .replace('lower="-3" upper="3" velocity="2" effort="1"/></joint>\n  <joint name="elbow"',
+                                   'velocity="2" effort="1"/></joint>\n  <joint name="elbow"'))
+        for end, turns in (("7", "shoulder ends at 0.716815 rad, 1 turn from the 7 rad of the path"), ("0.7", None)):
+            way = self.file("turn.csv", f"time,shoulder,elbow\n0,0,0\n1,{end},0.5\n")
+            for mode in ("stop", "time_optimal"):
+                result = self.run_tool("retime", "--robot", robot, "--limits", self.limits, "--trajectory", way,
+                                       "--mode", mode, "-o", "turned.csv", "--turning", "short")
+                self.assertEqual(result.returncode, 0, result)
+                self.assertEqual(self.lines(result.stdout).get("turns"), turns)
+
     def test_leaves_out_waypoints_on_straight_edges(self):
         rows = "".join(f"{k},{k / 300},{-k / 600}\n" for k in range(301))
         way = self.file("fine.csv", "time,shoulder,elbow\n" + rows)

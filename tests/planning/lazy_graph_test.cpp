@@ -12,8 +12,8 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/math/detail/lazy_graph.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/lazy_graph.h>
 
 namespace firstcontact::test {
 namespace {

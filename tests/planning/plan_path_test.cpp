@@ -287,9 +287,9 @@ TEST(PlanPath, RefusesWhatCannotBePlanned) {
             std::string::npos);
   const PlanScene bar = with_bar(thin_wall(0.4), {0.1, 0.1, 0.1});
   EXPECT_EQ(message_of(bar, {-1.6, 0, 0, 1, 0, 0, 0}, {{1, 0, 0, 1, 0, 0, 0}}),
-            "the start is outside of the box; widen the box");
+            "the start is outside of the box; widen the box, or the bounds of the floating joint");
   EXPECT_EQ(message_of(bar, {-1, 0, 0, 1, 0, 0, 0}, {{1, 0, 1.6, 1, 0, 0, 0}}),
-            "a goal is outside of the box; widen the box");
+            "a goal is outside of the box; widen the box, or the bounds of the floating joint");
   PlanScene none = scene;
   none.robots = {3};
   EXPECT_NE(message_of(none, kBefore, {kBehind}).find("robot of the scene for each"),

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/plan_question.h>
@@ -152,6 +153,34 @@ TEST_F(PlanFile, CallsCoordinatesByTheirRobots) {
   // Alone, the robot's name is left out.
   const PlanQuestion alone = plan(R"("robot": "cart", "goal": {"roll/theta": 1})");
   EXPECT_EQ(alone.goals[0], (JointPositions{{"roll/theta", 1.0}}));
+}
+
+// A pose and a number of it would contradict each other, and one of them would be lost.
+TEST_F(PlanFile, RefusesANumberBesideItsPose) {
+  const std::string twice = " is given twice, also by a pose; leave one of them out";
+  const std::string pose = R"("peg": {"position": [0, 0, 1]})";
+  expect_plan_messages(
+      R"("robot": "arm", "body": "peg", )",
+      {{R"("goal": {"peg/trans_x": 0.5, )" + pose + "}", ".goal.peg: \"peg/trans_x\"" + twice},
+       {R"("goal": {)" + pose + R"(, "peg/rot_w": 1})", ".goal[\"peg/rot_w\"]: \"peg/rot_w\"" + twice},
+       {R"("goal": {}, "start": {)" + pose + R"(, "peg/trans_z": 1})",
+        ".start[\"peg/trans_z\"]: \"peg/trans_z\"" + twice}});
+  const std::string lander = R"(<robot name="lander"><link name="world"/><link name="hull"/>
+      <joint name="float" type="floating"><parent link="world"/><child link="hull"/></joint></robot>)";
+  folder_.write("lander.urdf", lander);
+  const auto state = [&](const std::string& of) {
+    return test::message_of<ParseError>([&] {
+      (void)parse_scene(
+          test::scene(test::body("wall"), R"("robots": [{"name": "l", "urdf": "lander.urdf",
+                                                          "state": )" +
+                                              of + "}]"),
+          folder_.path() / "s.json");
+    });
+  };
+  EXPECT_THAT(state(R"({"float/trans_x": 0.5, "float": {"position": [1, 0, 0]}})"),
+              testing::HasSubstr(R"("float/trans_x")" + twice));
+  // Of an array, the later one counts.
+  EXPECT_EQ(state(R"([{"float/trans_x": 0.5}, {"float": {"position": [1, 0, 0]}}])"), "accepted");
 }
 
 TEST_F(PlanFile, SaysWhatMoves) {

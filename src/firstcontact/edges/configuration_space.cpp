@@ -415,7 +415,8 @@ void ConfigurationSpace::set_limits(const std::string& name, double lower, doubl
     if (set_box(name, lower, upper)) {
       return;
     }
-    refuse_space("limits of joint " + detail::in_quotes(name) + ", which is not planned");
+    refuse_space("limits of joint " + detail::in_quotes(name) +
+                 ", which is not planned; plan it too, or leave its bounds out");
   }
   if (found->has_limits && (lower > found->upper || upper < found->lower)) {
     refuse_space("limits of joint " + detail::in_quotes(name) +

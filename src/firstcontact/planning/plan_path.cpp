@@ -65,9 +65,13 @@ void require_places(const ConfigurationSpace& space, const Configuration& start,
     const std::string which = goals.size() == 1 ? "" : " " + std::to_string(k);
     require_plan(!of_goal, "the goal" + which + ": " + of_goal.value_or(""));
   }
-  require_plan(space.is_in_box(start), "the start is outside of the box; widen the box");
+  require_plan(
+      space.is_in_box(start),
+      "the start is outside of the box; widen the box, or the bounds of the floating joint");
   for (const Configuration& goal : goals) {
-    require_plan(space.is_in_box(goal), "a goal is outside of the box; widen the box");
+    require_plan(
+        space.is_in_box(goal),
+        "a goal is outside of the box; widen the box, or the bounds of the floating joint");
   }
   const std::optional<std::string> unbounded = space.unbounded();
   require_plan(!unbounded, "joint " + detail::in_quotes(unbounded.value_or("")) +

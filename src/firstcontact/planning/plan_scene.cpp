@@ -100,7 +100,8 @@ NamedSpaces spaces_of_robots(const LoadedScene& loaded, const PlanQuestion& ques
     const RobotMotion& motion = loaded.robots->robot_motion(question.robots[k]);
     all.names.push_back(loaded.scene.robots[question.robots[k]].name);
     if (joints[k].empty()) {
-      refuse_plan("robot " + in_quotes(all.names.back()) + ": no goal names a joint that moves");
+      refuse_plan("robot " + in_quotes(all.names.back()) +
+                  ": no goal names a joint that moves; name one that is not fixed and mimics none");
     }
     all.spaces.push_back(ConfigurationSpace::of_joints(
         motion.model(), joints[k], detail::given_motions(motion), motion.base()));

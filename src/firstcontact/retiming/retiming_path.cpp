@@ -137,6 +137,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
   } catch (const std::invalid_argument& error) {
     throw ParseError(name, error.what());
   }
+  result.named_end = result.path.waypoints.back();
   result.path = unwound(std::move(result.path), turns_short);
   return result;
 }
@@ -167,6 +168,7 @@ RetimingPath retiming_path_of(Scene scene, const std::string& name) {
     result.path.waypoints.push_back(point.positions);
   }
   require_path(result.path);
+  result.named_end = result.path.waypoints.back();
   result.path = unwound(std::move(result.path), turns_short);
   result.scene = std::move(scene);
   return result;

@@ -25,6 +25,9 @@ struct RetimingPath {
   /// The path, whose numbers go the way that the joints turn. Joints are ROBOT/NAME where several
   /// robots move.
   WaypointPath path = {};
+  /// The last waypoint as its file has it. The numbers of joints that go the short way may be whole
+  /// turns away from those of `path`.
+  std::vector<double> named_end = {};
   /// Pairs that are in contact at an end of the path, and the distances that they are held to.
   std::vector<NamedContactPair> contact_pairs = {};
   std::string input_digest = {};  ///< Digest of all files that the path was planned with; empty

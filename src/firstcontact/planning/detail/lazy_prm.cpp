@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/math/detail/lazy_graph.h>
 #include <firstcontact/math/detail/nearest_index.h>
-#include <firstcontact/planning/detail/lazy_graph.h>
 #include <firstcontact/planning/detail/rrt_connect.h>
 #include <firstcontact/planning/detail/shorten_path.h>
 
@@ -21,7 +21,7 @@ constexpr std::size_t kFirstBatch = 64;      // Number of places; each further b
 constexpr std::size_t kFewestPlaces = 1000;  // Below this number the graph is not dense enough.
 constexpr double kWorthwhile = 0.01;         // [-]  Part of the cost that is worth more work.
 constexpr std::size_t kTriesOfSample = 20'000;
-constexpr std::size_t kLongestWait = 4;  // Paths of RRT-Connect in a row without a gain.
+constexpr std::size_t kPathsWithoutGain = 4;  // Paths of RRT-Connect in a row without a gain.
 
 class Roadmap {
  public:
@@ -185,7 +185,7 @@ FoundPath lazy_prm_star(PlanWork& work, const Configuration& start,
   FoundPath best{{start}, false};
   Roadmap roadmap(work, start, goals);
   std::size_t waited = 0;  // Paths in a row that are not shorter.
-  while (waited < kLongestWait && !work.is_over()) {
+  while (waited < kPathsWithoutGain && !work.is_over()) {
     FoundPath next = rrt_connect(work, start, goals, range, random);
     if (!next.reaches_goal) {
       if (!best.reaches_goal) {

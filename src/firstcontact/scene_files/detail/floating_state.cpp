@@ -8,6 +8,7 @@
 
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 
@@ -31,6 +32,16 @@ std::optional<JointPositions> floating_positions(const RobotModel& robot, std::s
     return std::nullopt;
   }
   return pose_positions(robot.joints()[*joint], value, read);
+}
+
+void add_once(const JointPositions& added, JointPositions& positions, const JsonValue& entry,
+              const JsonReader& read) {
+  for (const auto& [coordinate, position] : added) {
+    if (!positions.emplace(coordinate, position).second) {
+      read.fail(entry, in_quotes(coordinate) +
+                           " is given twice, also by a pose; leave one of them out");
+    }
+  }
 }
 
 }  // namespace firstcontact::detail

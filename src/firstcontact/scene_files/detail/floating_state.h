@@ -27,4 +27,10 @@ namespace firstcontact::detail {
                                                                const JsonValue& value,
                                                                const JsonReader& read);
 
+/// Adds positions of an entry of a state to those of the entries before it.
+///
+/// @throws ParseError  where one is there already: it is given as a number and in a pose
+void add_once(const JointPositions& added, JointPositions& positions, const JsonValue& entry,
+              const JsonReader& read);
+
 }  // namespace firstcontact::detail

@@ -412,8 +412,12 @@ class PlanReader {
         read_.fail(value, error.what());
       }
     } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
+      JointPositions own;
       for (const auto& [joint, position] : *object) {
-        add_position(joint, position, plan, positions);
+        add_once(read_positions(joint, position, plan), own, position, read_);
+      }
+      for (const auto& [joint, position] : own) {
+        positions[joint] = position;
       }
     } else {
       read_.fail_expected(
@@ -422,27 +426,24 @@ class PlanReader {
     }
   }
 
-  /// Adds the position of a coordinate, or the pose of a floating joint or of the body.
-  void add_position(const std::string& name, const JsonValue& value, const PlanQuestion& plan,
-                    JointPositions& positions) const {
+  /// Reads the position of a coordinate, or the pose of a floating joint or of the body.
+  JointPositions read_positions(const std::string& name, const JsonValue& value,
+                                const PlanQuestion& plan) const {
     if (is_body(name, plan)) {
-      const Joint floating{.name = name, .type = JointType::floating};
-      for (const auto& [coordinate, number] : pose_positions(floating, value, read_)) {
-        positions[coordinate] = number;
-      }
-      return;
+      return pose_positions({.name = name, .type = JointType::floating}, value, read_);
     }
     const RobotName split = split_name(value, name, plan);
     if (split.which < plan.robots.size()) {
       const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
       if (const auto pose = floating_positions(model, split.name, value, read_)) {
+        JointPositions named;
         for (const auto& [coordinate, number] : *pose) {
-          positions[full_name(plan, split.which, coordinate)] = number;
+          named[full_name(plan, split.which, coordinate)] = number;
         }
-        return;
+        return named;
       }
     }
-    positions[known_joint(value, name, plan)] = read_.number(value);
+    return {{known_joint(value, name, plan), read_.number(value)}};
   }
 
   const Scene& scene_;

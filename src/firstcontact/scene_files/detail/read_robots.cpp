@@ -184,6 +184,7 @@ class RobotReader {
 
   void take_positions(const JsonObject& positions, SceneRobot& robot) const {
     std::vector<std::string> fixed;
+    JointPositions own;
     for (const auto& [joint, position] : positions) {
       if (names_fixed_joint(robot.model, joint)) {
         (void)joint_position(position, read_);
@@ -191,9 +192,7 @@ class RobotReader {
         continue;
       }
       if (const auto pose = floating_positions(robot.model, joint, position, read_)) {
-        for (const auto& [name, number] : *pose) {
-          robot.state[name] = number;
-        }
+        add_once(*pose, own, position, read_);
         continue;
       }
       try {
@@ -201,7 +200,10 @@ class RobotReader {
       } catch (const std::invalid_argument& error) {
         read_.fail(position, error.what());
       }
-      robot.state[joint] = joint_position(position, read_);
+      add_once({{joint, joint_position(position, read_)}}, own, position, read_);
+    }
+    for (const auto& [joint, position] : own) {
+      robot.state[joint] = position;
     }
     if (!fixed.empty()) {
       scene_.warnings.push_back(robot.name + ": state: " + fixed_joints_warning(std::move(fixed)));

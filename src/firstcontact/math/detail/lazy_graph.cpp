@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/lazy_graph.h>
+#include <firstcontact/math/detail/lazy_graph.h>
 
 #include <algorithm>
 #include <cmath>
