@@ -122,9 +122,10 @@ the result. `verify` refuses a result whose scene was edited, or whose mesh or r
 changed. These are not proven again: contacts (bodies, features, points, counts), intervals of
 contact, closest approaches, and the counts of pairs that are not tested.
 
-A path: each edge is proven to keep the margin and the extra clearance. A path that ends before a
-goal is called approximate; its distance to the goal is measured again. `verify` refuses a path
-whose mesh or robot files have changed. Costs and statistics are not proven again.
+A path: each edge is proven to keep the margin and the extra clearance. The proof is about the
+scene, its rules for pairs and the goals in FILE; --scene compares them with yours. A path that ends
+before a goal is called approximate; its distance to the goal is measured again. `verify` refuses a
+path whose mesh or robot files have changed. Costs and statistics are not proven again.
 
 Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted: bodies interpenetrate or come
 closer than FILE claims, or the bodies of a contact are apart. A FILE that contradicts itself is bad
