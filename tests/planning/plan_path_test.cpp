@@ -90,7 +90,7 @@ TEST(PlanPath, LazyPrmIsNoLongerThanRrtConnect) {
 TEST(PlanPath, LazyPrmTakesAGoalThatIsNamedTwice) {
   const PlanScene scene = with_gantry(boxed_in());
   const Configuration inside = {0.0, 0.1, -0.1};
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(rounds(3, 1)); ++seed) {
     const PlanResult result = plan_path(scene, kBehind, {inside, inside, inside},
                                         {.planner = Planner::lazy_prm_star, .seed = seed});
     expect_proven(scene, result, kBehind, inside);
