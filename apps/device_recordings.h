@@ -23,12 +23,10 @@ namespace firstcontact::app {
 /// first and the last tick. A file holds whole rows at every moment.
 class DeviceRecordings {
  public:
-  /// Begins the files.
+  /// Begins the files. One that holds something is refused, unless `replaces`.
   ///
-  /// @param files     a name for each device, or none at all
-  /// @param replaces  whether files that hold something are lost
-  /// @throws std::runtime_error, one line that names the file, where it cannot be written, or holds
-  ///         something and is not to be replaced
+  /// @param files  a name for each device, or none at all
+  /// @throws std::runtime_error  names the file, which is refused or cannot be written
   void begin(std::span<const std::string> files, std::span<Device* const> devices, bool replaces);
 
   /// Adds what is new in a tick.
